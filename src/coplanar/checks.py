@@ -1,0 +1,186 @@
+"""The boundary: what enters is checked once; what is inside is trusted.
+
+Every check returns the value in the form the library works with: a Python float for a scalar,
+a float64 array for anything longer, and arrays of other libraries (JAX, PyTorch) as they are.
+A constructor passes what it keeps through ``frozen``, so that nobody can change it afterwards.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from coplanar.engine import is_foreign
+from coplanar.errors import InvalidShape, InvalidValue, UnknownName
+
+Real = Any  # a float, or an array of any library that follows the array API
+ArrayLike = Any
+
+
+def real(name: str, value: ArrayLike, *, remedy: str = "") -> Real:
+    """A finite number or array of finite numbers.
+
+    Args:
+        name: What to call it in the error.
+        value: A number, a sequence, an array.
+        remedy: What to do when it is refused.
+
+    Returns:
+        A float for shape (), otherwise a float64 array (the same one where it was float64 already).
+
+    Raises:
+        InvalidValue: If something is not a real number, or is NaN or infinite.
+
+    Example:
+        >>> real("speed", 2), real("speed", [1, 2]).tolist()
+        (2.0, [1.0, 2.0])
+    """
+    if type(value) is float and math.isfinite(value):
+        return value
+    if is_foreign(value):
+        return value
+    array = _as_float64(name, value)
+    if not np.isfinite(array).all():
+        raise InvalidValue(name, value, "finite numbers", remedy)
+    return float(array) if array.ndim == 0 else array
+
+
+def positive(name: str, value: ArrayLike, *, remedy: str = "") -> Real:
+    """A finite number, or array, greater than zero.
+
+    Raises:
+        InvalidValue: If an entry is zero, negative, NaN or infinite.
+
+    Example:
+        >>> positive("radius", 0.1)
+        0.1
+    """
+    checked = real(name, value, remedy=remedy)
+    if not is_foreign(checked) and not np.all(np.greater(checked, 0.0)):
+        raise InvalidValue(name, value, "greater than 0", remedy)
+    return checked
+
+
+def not_negative(name: str, value: ArrayLike, *, remedy: str = "") -> Real:
+    """A finite number, or array, of at least zero.
+
+    Raises:
+        InvalidValue: If an entry is negative, NaN or infinite.
+
+    Example:
+        >>> not_negative("drag", 0)
+        0.0
+    """
+    checked = real(name, value, remedy=remedy)
+    if not is_foreign(checked) and not np.all(np.greater_equal(checked, 0.0)):
+        raise InvalidValue(name, value, "0 or more", remedy)
+    return checked
+
+
+def vector(name: str, value: ArrayLike, length: int | None = None, *, remedy: str = "") -> Any:
+    """An array of shape ``(..., length)``, finite.
+
+    Args:
+        name: What to call it in the error.
+        value: The array.
+        length: The size of the last axis; any (but at least 1) when None.
+        remedy: What to do when it is refused.
+
+    Raises:
+        InvalidShape: If the last axis is not ``length`` long.
+        InvalidValue: If something is NaN or infinite.
+
+    Example:
+        >>> vector("point", (1, 2), 2).shape
+        (2,)
+    """
+    checked = value if is_foreign(value) else real(name, value, remedy=remedy)
+    shape = np.shape(checked)
+    if not shape or (length is not None and shape[-1] != length) or shape[-1] == 0:
+        needed = f"shape (..., {'n' if length is None else length})"
+        raise InvalidShape(name, f"shape {shape}", needed, remedy)
+    return checked
+
+
+def monotone(name: str, value: ArrayLike) -> np.ndarray:
+    """A strictly increasing or strictly decreasing vector of at least two times.
+
+    Raises:
+        InvalidShape: If it is not a vector of two or more entries.
+        InvalidValue: If two neighbours are equal or the direction changes.
+
+    Example:
+        >>> monotone("t", [0, 1, 3]).tolist()
+        [0.0, 1.0, 3.0]
+    """
+    times = vector(name, value)
+    if times.ndim != 1 or times.size < 2:
+        raise InvalidShape(name, f"shape {times.shape}", "a vector of two or more times")
+    steps = np.diff(times)
+    wrong = np.flatnonzero(np.sign(steps) != np.sign(steps[0])) if steps[0] else np.array([0])
+    if wrong.size:
+        i = int(wrong[0])
+        raise InvalidValue(
+            name, f"... {times[i]}, {times[i + 1]} ... at index {i + 1}", "a strictly monotone vector",
+            "sort the times and remove repeated ones",
+        )  # fmt: skip
+    return np.asarray(times)
+
+
+def choice(name: str, value: str, known: Iterable[str]) -> str:
+    """One of the known names.
+
+    Raises:
+        UnknownName: With the list, and the nearest name when there is one.
+
+    Example:
+        >>> choice("method", "rk4", ["euler", "rk4"])
+        'rk4'
+    """
+    known = list(known)
+    if value not in known:
+        raise UnknownName(name, value, known)
+    return value
+
+
+def broadcast(**values: Real) -> tuple[int, ...]:
+    """The common shape of the named values.
+
+    Raises:
+        InvalidShape: Naming every value and its shape, if they do not broadcast.
+
+    Example:
+        >>> broadcast(x=1.0, y=np.zeros(3))
+        (3,)
+    """
+    try:
+        return np.broadcast_shapes(*(np.shape(v) for v in values.values()))
+    except ValueError:
+        given = ", ".join(f"{k}: {np.shape(v)}" for k, v in values.items())
+        raise InvalidShape(", ".join(values), given, "shapes that broadcast as in NumPy") from None
+
+
+def frozen(value: Real) -> Real:
+    """The value itself if nobody can change it, otherwise a read-only copy.
+
+    Example:
+        >>> frozen(np.zeros(2)).flags.writeable
+        False
+    """
+    if isinstance(value, np.ndarray) and value.flags.writeable:
+        value = value.copy()
+        value.flags.writeable = False
+    return value
+
+
+def _as_float64(name: str, value: ArrayLike) -> np.ndarray:
+    try:
+        array = np.asarray(value)
+        if array.dtype.kind not in "biuf":
+            raise TypeError
+    except (TypeError, ValueError):
+        raise InvalidValue(name, value, "real numbers (an equal count in every row)") from None
+    return array if array.dtype == np.float64 else array.astype(np.float64)

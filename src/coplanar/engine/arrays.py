@@ -1,0 +1,194 @@
+"""The primitives of the laws, as array text over a namespace ``xp``.
+
+Here ``xp`` is NumPy, so a law that imports these names is a valid NumPy function by itself. The same text
+bound to another namespace (``engine.binding``) serves JAX, PyTorch and whoever else speaks the array API.
+Where a primitive has a special point, both sides of it are finite, so that gradients are.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as xp
+
+from coplanar.engine.gauss import NODES, WEIGHTS, panel_count
+
+PI = math.pi
+TAU = math.tau
+
+SERIES_BELOW = 5e-3  # [rad] sinc by its series: the first term left out is x^6/5040 < 4e-18
+DSINC_BELOW = 0.5  # [rad] dsinc by its series: the first term left out is 16 x^15/17! < 2e-18
+
+
+def sin(x: Any) -> Any:
+    """Sine of an angle in radians."""
+    return xp.sin(x)
+
+
+def cos(x: Any) -> Any:
+    """Cosine of an angle in radians."""
+    return xp.cos(x)
+
+
+def sincos(x: Any) -> Any:
+    """Sine and cosine of one angle, in this order."""
+    return xp.sin(x), xp.cos(x)
+
+
+def tan(x: Any) -> Any:
+    """Tangent of an angle in radians."""
+    return xp.tan(x)
+
+
+def atan2(y: Any, x: Any) -> Any:
+    """Angle of the point (x, y), in [-pi, pi]."""
+    return xp.atan2(y, x)
+
+
+def sqrt(x: Any) -> Any:
+    """Square root; zero, with a zero gradient, for x <= 0."""
+    inside = x > 0.0
+    return xp.where(inside, xp.sqrt(xp.where(inside, x, 1.0)), 0.0 * x)
+
+
+def hypot(x: Any, y: Any) -> Any:
+    """Length of (x, y); zero, with a zero gradient, at the origin."""
+    apart = (x != 0.0) | (y != 0.0)
+    return xp.where(apart, xp.hypot(xp.where(apart, x, 1.0), y), 0.0)
+
+
+def exp(x: Any) -> Any:
+    """Natural exponential."""
+    return xp.exp(x)
+
+
+def log(x: Any) -> Any:
+    """Natural logarithm."""
+    return xp.log(x)
+
+
+def log1p(x: Any) -> Any:
+    """log(1 + x) without cancellation."""
+    return xp.log1p(x)
+
+
+def expm1(x: Any) -> Any:
+    """exp(x) - 1 without cancellation."""
+    return xp.expm1(x)
+
+
+def sinh(x: Any) -> Any:
+    """Hyperbolic sine."""
+    return xp.sinh(x)
+
+
+def cosh(x: Any) -> Any:
+    """Hyperbolic cosine."""
+    return xp.cosh(x)
+
+
+def tanh(x: Any) -> Any:
+    """Hyperbolic tangent."""
+    return xp.tanh(x)
+
+
+def asinh(x: Any) -> Any:
+    """Inverse hyperbolic sine."""
+    return xp.asinh(x)
+
+
+def atan(x: Any) -> Any:
+    """Inverse tangent."""
+    return xp.atan(x)
+
+
+def atanh(x: Any) -> Any:
+    """Inverse hyperbolic tangent."""
+    return xp.atanh(x)
+
+
+def copysign(x: Any, y: Any) -> Any:
+    """The magnitude of x with the sign of y."""
+    return xp.copysign(x, y)
+
+
+def floor(x: Any) -> Any:
+    """Greatest whole number that is not above x."""
+    return xp.floor(x)
+
+
+def absolute(x: Any) -> Any:
+    """Absolute value."""
+    return xp.abs(x)
+
+
+def nearest(x: Any) -> Any:
+    """Nearest whole number, halves to even."""
+    return xp.round(x)
+
+
+def where(condition: Any, yes: Any, no: Any) -> Any:
+    """``yes`` where the condition holds, ``no`` elsewhere; both are evaluated."""
+    return xp.where(condition, yes, no)
+
+
+def minimum(x: Any, y: Any) -> Any:
+    """The smaller of two."""
+    return xp.minimum(x, y)
+
+
+def maximum(x: Any, y: Any) -> Any:
+    """The larger of two."""
+    return xp.maximum(x, y)
+
+
+def sinc(x: Any) -> Any:
+    """sin(x)/x, 1 at 0."""
+    small = xp.abs(x) < SERIES_BELOW
+    z = x * x
+    return xp.where(small, 1.0 - z * (1.0 / 6.0 - z * (1.0 / 120.0)), xp.sin(x) / xp.where(small, 1.0, x))
+
+
+def dsinc(x: Any) -> Any:
+    """Derivative of sinc: (cos x - sinc x)/x, 0 at 0."""
+    small = xp.abs(x) < DSINC_BELOW
+    z = xp.where(small, x * x, 0.0)
+    apart = xp.where(small, 1.0, x)
+    return xp.where(small, x * dsinc_series(z), (xp.cos(apart) - xp.sin(apart) / apart) / apart)
+
+
+def dsinc_series(z: Any) -> Any:
+    """Series of dsinc(x)/x in z = x^2: the sum of (-1)^k 2k z^(k-1)/(2k+1)! over k = 1 ... 7."""
+    return -1.0 / 3.0 + z * (
+        1.0 / 30.0
+        + z
+        * (
+            -1.0 / 840.0
+            + z * (1.0 / 45360.0 + z * (-1.0 / 3991680.0 + z * (1.0 / 518918400.0 + z * (-1.0 / 93405312000.0))))
+        )
+    )
+
+
+def integrate(integrand: Any, panels: Any, lower: Any, upper: Any, *parameters: Any) -> Any:
+    """Integral of ``integrand(s, *parameters)`` from lower to upper, by 16-point Gauss-Legendre panels.
+
+    Args:
+        integrand: A law of s and the parameters that returns a tuple.
+        panels: How many panels the caller's bound asks for; a real number, rounded up.
+        lower: Start of the interval.
+        upper: End of the interval.
+        *parameters: Passed on to the integrand.
+
+    Returns:
+        A tuple with one integral for every entry of the integrand's tuple.
+    """
+    count = panel_count(panels)
+    half = 0.5 * (upper - lower) / count
+    total: Any = None
+    for panel in range(count):
+        middle = lower + (2 * panel + 1) * half
+        for node, weight in zip(NODES, WEIGHTS, strict=True):
+            terms = [weight * f for f in integrand(middle + node * half, *parameters)]
+            total = terms if total is None else [t + f for t, f in zip(total, terms, strict=True)]
+    return tuple(half * t for t in total)

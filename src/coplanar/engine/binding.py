@@ -1,0 +1,70 @@
+"""One text, other names: run the code object of a law over another set of primitives.
+
+A law is looked up in three kinds of names: primitives (replaced), other laws (bound in turn) and constants
+(kept). Nothing is compiled from text and nothing is rewritten: the law keeps its file and its line numbers.
+"""
+
+from __future__ import annotations
+
+import types
+from collections.abc import Callable, Mapping
+from types import FunctionType
+from typing import Any
+
+from coplanar.engine import arrays
+
+PRIMITIVES: frozenset[str] = frozenset(
+    name for name, value in vars(arrays).items() if isinstance(value, FunctionType) and name != "panel_count"
+)
+
+
+def bind(
+    law: Callable[..., Any],
+    primitives: Mapping[str, Any],
+    wrap: Callable[[FunctionType], Any] = lambda function: function,
+    bound: dict[Any, Any] | None = None,
+) -> Any:
+    """The law's own code over other primitives.
+
+    Args:
+        law: A function of ``coplanar.laws``.
+        primitives: What stands for each primitive's name.
+        wrap: Applied to every bound function, for instance a compiler's decorator.
+        bound: The laws bound so far; shared between calls so that each is bound once.
+
+    Returns:
+        The bound function, as ``wrap`` returns it.
+
+    Example:
+        >>> import math
+        >>> def chord(radius, angle):
+        ...     return 2 * radius * sin(angle / 2)
+        >>> chord.__globals__["sin"] = arrays.sin
+        >>> bind(chord, {"sin": math.sin})(1.0, math.pi)
+        2.0
+    """
+    done: dict[Any, Any] = {} if bound is None else bound
+    if law not in done:
+        done[law] = wrap(_rebound(law, primitives, wrap, done))
+    return done[law]
+
+
+def _rebound(law: Any, primitives: Mapping[str, Any], wrap: Any, done: dict[Any, Any]) -> FunctionType:
+    names: dict[str, Any] = {"__builtins__": __builtins__, "__name__": law.__module__}
+    for name in law.__code__.co_names:
+        value = law.__globals__.get(name, names)
+        if name in primitives and value is getattr(arrays, name, None):
+            names[name] = primitives[name]
+        elif isinstance(value, FunctionType):
+            names[name] = bind(value, primitives, wrap, done)
+        elif value is not names:
+            names[name] = value
+    function = FunctionType(law.__code__, names, law.__name__, law.__defaults__, law.__closure__)
+    function.__doc__, function.__qualname__ = law.__doc__, law.__qualname__
+    return function
+
+
+def array_primitives(namespace: types.ModuleType) -> dict[str, Any]:
+    """The array text of every primitive, bound to another array library's namespace."""
+    names = dict(vars(arrays), xp=namespace)
+    return {name: FunctionType(getattr(arrays, name).__code__, names, name) for name in PRIMITIVES}

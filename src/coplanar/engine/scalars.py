@@ -1,0 +1,75 @@
+"""The primitives of the laws for one Python float, by the ``math`` module."""
+
+from __future__ import annotations
+
+import math
+from math import asinh, atan, atan2, atanh, copysign, cos, cosh, expm1, hypot, log, log1p, sin, sinh, tan, tanh
+from typing import Any
+
+from coplanar.engine.arrays import DSINC_BELOW, PI, SERIES_BELOW, TAU, dsinc_series
+from coplanar.engine.gauss import NODES, WEIGHTS, panel_count
+
+_RULE = tuple(zip(NODES, WEIGHTS, strict=True))
+
+exp = math.exp
+absolute = abs
+minimum = min
+maximum = max
+
+
+def sincos(x: float) -> tuple[float, float]:
+    """Sine and cosine of one angle, in this order."""
+    return sin(x), cos(x)
+
+
+def sqrt(x: float) -> float:
+    """Square root; zero for x <= 0, NaN for NaN."""
+    return math.sqrt(x) if x > 0.0 else 0.0 * x
+
+
+def nearest(x: float) -> float:
+    """Nearest whole number, halves to even."""
+    return float(round(x))
+
+
+def floor(x: float) -> float:
+    """Greatest whole number that is not above x."""
+    return float(math.floor(x))
+
+
+def where(condition: bool, yes: float, no: float) -> float:
+    """``yes`` if the condition holds, otherwise ``no``."""
+    return yes if condition else no
+
+
+def sinc(x: float) -> float:
+    """sin(x)/x, 1 at 0."""
+    if abs(x) < SERIES_BELOW:
+        z = x * x
+        return 1.0 - z * (1.0 / 6.0 - z * (1.0 / 120.0))
+    return sin(x) / x
+
+
+def dsinc(x: float) -> float:
+    """Derivative of sinc: (cos x - sinc x)/x, 0 at 0."""
+    return x * dsinc_series(x * x) if abs(x) < DSINC_BELOW else (cos(x) - sin(x) / x) / x
+
+
+def integrate(integrand: Any, panels: float, lower: float, upper: float, *parameters: float) -> tuple[float, ...]:
+    """Integral of ``integrand(s, *parameters)`` by 16-point Gauss-Legendre panels."""
+    count = panel_count(panels)
+    half = 0.5 * (upper - lower) / count
+    total = [0.0] * len(integrand(lower, *parameters))
+    for panel in range(count):
+        middle = lower + (2 * panel + 1) * half
+        for node, weight in _RULE:
+            for i, f in enumerate(integrand(middle + node * half, *parameters)):
+                total[i] += weight * f
+    return tuple([half * t for t in total])
+
+
+__all__ = [
+    "PI", "TAU", "absolute", "asinh", "atan", "atan2", "atanh", "copysign", "cos", "cosh", "dsinc", "dsinc_series", "exp", "expm1", "floor",
+    "hypot", "integrate", "log", "log1p", "maximum", "minimum", "nearest", "sin", "sinc", "sincos", "sinh",
+    "sqrt", "tan", "tanh", "where",
+]  # fmt: skip

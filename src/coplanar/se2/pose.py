@@ -1,0 +1,222 @@
+"""Poses: where one frame stands in another."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, overload
+
+import numpy as np
+
+from coplanar import checks
+from coplanar.checks import ArrayLike, Real
+from coplanar.engine import components, evaluator, stack
+from coplanar.errors import InvalidShape, InvalidValue
+from coplanar.laws import se2 as laws
+from coplanar.se2.triple import Triple, matrix_of
+from coplanar.se2.twist import Displacement, Twist
+
+_act = evaluator(laws.act)
+_act_inverse = evaluator(laws.act_inverse)
+_adjoint = evaluator(laws.adjoint)
+_between = evaluator(laws.between)
+_compose = evaluator(laws.compose)
+_exp = evaluator(laws.exp)
+_inverse = evaluator(laws.act_inverse)
+_adjoint = evaluator(laws.adjoint)
+_between = evaluator(laws.between)
+_compose = evaluator(laws.compose)
+_exp = evaluator(laws.exp)
+_exp_jacobian = evaluator(laws.exp_jacobian)
+_inverse = evaluator(laws.inverse)
+_lerp = evaluator(laws.lerp)
+_log = evaluator(laws.log)
+_rotate = evaluator(laws.rotate)
+_step = evaluator(laws.step)
+_wrap = evaluator(laws.wrap)
+
+
+@dataclass(frozen=True, slots=True)
+class Pose(Triple):
+    """A frame in another: origin (x, y) and heading theta; or poses of any leading shape.
+
+    The heading is kept as given: 2 pi is a full turn, not 0. ``wrapped`` brings it into (-pi, pi].
+
+    Attributes:
+        x: [m].
+        y: [m].
+        theta: Heading, counterclockwise from the x axis [rad].
+
+    Example:
+        >>> T_a_b, T_b_c = Pose(1.0, 0.0, 0.0), Pose(2.0, 3.0, 0.5)
+        >>> T_a_b @ T_b_c
+        Pose(x=3.0, y=3.0, theta=0.5)
+        >>> (T_a_b @ (0.0, 1.0)).tolist()
+        [1.0, 1.0]
+    """
+
+    names: ClassVar = ("x", "y", "theta")
+    x: Real = 0.0
+    y: Real = 0.0
+    theta: Real = 0.0
+
+    @classmethod
+    def exp(cls, displacement: Displacement) -> Pose:
+        """Pose reached along a constant displacement: p = sinc(h) R(h) (dx, dy), h = dtheta/2.
+
+        Example:
+            >>> from math import pi
+            >>> Pose.exp(Displacement(pi / 2, 0.0, pi / 2)).as_array().round(12).tolist()
+            [1.0, 1.0, 1.570796326795]
+        """
+        return cls._of(*_exp(displacement.dx, displacement.dy, displacement.dtheta))
+
+    @classmethod
+    def from_matrix(cls, matrix: ArrayLike) -> Pose:
+        """The pose of homogeneous matrices, shape (..., 3, 3); the heading comes in (-pi, pi].
+
+        Raises:
+            InvalidShape: If the last axes are not 3 by 3.
+            InvalidValue: If the upper left block is no rotation (to 1e-9) or the last row is not (0, 0, 1).
+
+        Example:
+            >>> Pose.from_matrix(Pose(1.0, 2.0, 3.0).as_matrix())
+            Pose(x=1.0, y=2.0, theta=3.0)
+        """
+        T = checks.vector("matrix", matrix, 3)
+        if T.ndim < 2 or T.shape[-2] != 3:
+            raise InvalidShape("matrix", f"shape {T.shape}", "shape (..., 3, 3)")
+        R = T[..., :2, :2]
+        unit = np.abs(R @ R.swapaxes(-1, -2) - np.eye(2)).max(initial=0.0) < 1e-9
+        if not (unit and np.all(np.linalg.det(R) > 0) and np.all(T[..., 2, :] == (0, 0, 1))):
+            raise InvalidValue("matrix", matrix, "[[R, p], [0, 0, 1]] with a rotation R")
+        return cls(T[..., 0, 2], T[..., 1, 2], np.arctan2(T[..., 1, 0], T[..., 0, 0]))
+
+    def as_matrix(self) -> np.ndarray:
+        """T = [[R, p], [0, 0, 1]], shape (..., 3, 3).
+
+        Example:
+            >>> Pose(1.0, 2.0, 0.0).as_matrix().tolist()
+            [[1.0, -0.0, 1.0], [0.0, 1.0, 2.0], [0.0, 0.0, 1.0]]
+        """
+        c, s = _rotate(self.theta, 1.0, 0.0)
+        return matrix_of((c, -s, self.x), (s, c, self.y), (0.0, 0.0, 1.0))
+
+    @property
+    def position(self) -> np.ndarray:
+        """Origin (x, y), shape (..., 2)."""
+        point: np.ndarray = stack((self.x, self.y))
+        return point
+
+    @property
+    def wrapped(self) -> Pose:
+        """The same pose with its heading in (-pi, pi]."""
+        return Pose._of(self.x, self.y, _wrap(self.theta))
+
+    @overload
+    def __matmul__(self, other: Pose) -> Pose: ...
+    @overload
+    def __matmul__(self, other: ArrayLike) -> np.ndarray: ...
+    def __matmul__(self, other: Pose | ArrayLike) -> Pose | np.ndarray:
+        """``T_a_b @ T_b_c`` composes; ``T_a_b @ p_b`` takes points, shape (..., 2), to frame a."""
+        if isinstance(other, Pose):
+            return Pose._of(*_compose(self.x, self.y, self.theta, other.x, other.y, other.theta))
+        points: np.ndarray = stack(self.act(*components(checks.vector("points", other, 2))))
+        return points
+
+    def act(self, px: Real, py: Real) -> tuple[Real, Real]:
+        """Coordinates in the outer frame of the point (px, py): C_0 = O_1 + R C_1.
+
+        Example:
+            >>> Pose(1.0, 2.0, 0.0).act(0.5, 0.0)
+            (1.5, 2.0)
+        """
+        x, y = _act(self.x, self.y, self.theta, px, py)
+        return x, y
+
+    def act_inverse(self, px: Real, py: Real) -> tuple[Real, Real]:
+        """Coordinates in the inner frame of an outer point: C_1 = R^T (C_0 - O_1).
+
+        Example:
+            >>> Pose(1.0, 2.0, 0.0).act_inverse(1.5, 2.0)
+            (0.5, 0.0)
+        """
+        x, y = _act_inverse(self.x, self.y, self.theta, px, py)
+        return x, y
+
+    def inverse(self) -> Pose:
+        """T_b_a = T_a_b^-1.
+
+        Example:
+            >>> Pose(1.0, 2.0, 0.0).inverse()
+            Pose(x=-1.0, y=-2.0, theta=-0.0)
+        """
+        return Pose._of(*_inverse(self.x, self.y, self.theta))
+
+    def between(self, other: Pose) -> Pose:
+        """T_b_c = T_a_b^-1 T_a_c: the other pose seen from this one.
+
+        Example:
+            >>> Pose(1.0, 2.0, 0.0).between(Pose(3.0, 2.0, 0.5))
+            Pose(x=2.0, y=0.0, theta=0.5)
+        """
+        return Pose._of(*_between(self.x, self.y, self.theta, other.x, other.y, other.theta))
+
+    def log(self) -> Displacement:
+        """Exponential coordinates with dtheta in (-pi, pi]: the constant displacement that leads here.
+
+        Example:
+            >>> from math import pi
+            >>> Pose(1.0, 1.0, pi / 2).log().as_array().round(12).tolist()
+            [1.570796326795, 0.0, 1.570796326795]
+        """
+        return Displacement._of(*_log(self.x, self.y, self.theta))
+
+    def step(self, increment: Displacement) -> Pose:
+        """T exp(increment): the pose after a displacement seen from the body.
+
+        Example:
+            >>> Pose(1.0, 0.0, 0.0).step(Displacement(2.0, 0.0, 0.0))
+            Pose(x=3.0, y=0.0, theta=0.0)
+        """
+        return Pose._of(*_step(self.x, self.y, self.theta, increment.dx, increment.dy, increment.dtheta))
+
+    def transform(self, twist: Twist) -> Twist:
+        """Ad_T xi: the twist of the rigid body, seen from frame a instead of frame b.
+
+        Example:
+            >>> Pose(0.0, 1.0, 0.0).transform(Twist(0.0, 0.0, 2.0))
+            Twist(vx=2.0, vy=0.0, omega=2.0)
+        """
+        return Twist._of(*_adjoint(self.x, self.y, self.theta, twist.vx, twist.vy, twist.omega))
+
+    def adjoint(self) -> np.ndarray:
+        """Ad_T = [[c, -s, y], [s, c, -x], [0, 0, 1]], shape (..., 3, 3).
+
+        Example:
+            >>> Pose(1.0, 2.0, 0.0).adjoint()[:, 2].tolist()
+            [2.0, -1.0, 1.0]
+        """
+        c, s = _rotate(self.theta, 1.0, 0.0)
+        return matrix_of((c, -s, self.y), (s, c, -self.x), (0.0, 0.0, 1.0))
+
+    def interpolate(self, other: Pose, fraction: ArrayLike, *, path: str = "screw") -> Pose:
+        """The pose a fraction of the way to another.
+
+        Args:
+            other: Where fraction = 1 leads (up to full turns).
+            fraction: 0 is this pose, 1 the other; broadcasts.
+            path: "screw" keeps one constant twist (an arc); "decoupled" moves on the straight line while turning.
+
+        Raises:
+            UnknownName: If the path is neither.
+
+        Example:
+            >>> Pose(0.0, 0.0, 0.0).interpolate(Pose(2.0, 0.0, 0.0), 0.5)
+            Pose(x=1.0, y=0.0, theta=0.0)
+        """
+        checks.choice("path", path, ("screw", "decoupled"))
+        f = checks.real("fraction", fraction)
+        if path == "decoupled":
+            return Pose._of(*_lerp(self.x, self.y, self.theta, other.x, other.y, other.theta, f))
+        way = self.between(other).log()
+        return self.step(Displacement._of(way.dx * f, way.dy * f, way.dtheta * f))
