@@ -25,7 +25,7 @@ FIRST_COMPILED_ROWS = 20_000  # below this a batch never waits for the compiler
 COMPILED_ROWS = 100  # from here the compiled loop wins, once it is there
 
 _NUMBERS = frozenset((float, int, bool))
-_FLOAT_PRIMITIVES = {name: getattr(scalars, name) for name in PRIMITIVES}
+_FLOAT_PRIMITIVES = {name: getattr(scalars, name) for name in (*PRIMITIVES, "integral")}
 _float_laws: dict[Any, Any] = {}
 
 

@@ -12,7 +12,7 @@ from numba import njit, types
 from numba.extending import overload
 
 from coplanar.engine.arrays import DSINC_BELOW, SERIES_BELOW, dsinc_series
-from coplanar.engine.gauss import NODES, WEIGHTS
+from coplanar.engine.gauss import rule
 
 FLAGS = {"contract", "nsz"}  # fused multiply-add; no care for the sign of zero; NaN and infinity stay exact
 FAR = 1.0e5  # [rad] the three-part reduction by pi/2 is exact to here
@@ -204,31 +204,56 @@ def _times_overload(terms, factor):
     return lambda terms, factor: (factor * terms[0], *_times(terms[1:], factor))
 
 
-@inline
-def _panel(integrand, middle, half, parameters):
-    """One Gauss-Legendre panel about ``middle``."""
-    total = _times(integrand(middle + NODES[0] * half, *parameters), WEIGHTS[0])
-    for i in range(1, 16):
-        total = _add(total, WEIGHTS[i], integrand(middle + NODES[i] * half, *parameters))
-    return _times(total, half)
+def _panel_of(integrand, points):
+    """One Gauss-Legendre panel, its nodes unrolled by type: only then does the loop over rows become vector code."""
+    nodes, weights = rule(points)
+
+    def add_nodes(total, middle, half, nodes, weights, parameters):
+        """The terms of the nodes that are left."""
+
+    @overload(add_nodes, jit_options={"forceinline": True, "fastmath": FLAGS})
+    def _add_nodes(total, middle, half, nodes, weights, parameters):
+        if len(nodes) == 0:
+            return lambda total, middle, half, nodes, weights, parameters: total
+        return lambda total, middle, half, nodes, weights, parameters: add_nodes(
+            _add(total, weights[0], integrand(middle + nodes[0] * half, *parameters)),
+            middle, half, nodes[1:], weights[1:], parameters,
+        )  # fmt: skip
+
+    @inline
+    def panel(middle, half, parameters):
+        first = _times(integrand(middle + nodes[0] * half, *parameters), weights[0])
+        return _times(add_nodes(first, middle, half, nodes[1:], weights[1:], parameters), half)
+
+    return panel
 
 
-@inline
-def integrate_one_panel(integrand, panels, lower, upper, *parameters):
+def _one_panel(integrand, points):
     """The integral where one panel is enough, NaN where it is not."""
-    half = 0.5 * (upper - lower)
-    return _times(_panel(integrand, lower + half, half, parameters), 1.0 if panels <= 1.0 else math.nan)
+    panel = _panel_of(integrand, points)
+
+    @inline
+    def integrate(panels, lower, upper, *parameters):
+        half = 0.5 * (upper - lower)
+        return panel(lower + half, half if panels <= 1.0 else math.nan, parameters)
+
+    return integrate
 
 
-@njit(fastmath=FLAGS, error_model="numpy")
-def integrate_panels(integrand, panels, lower, upper, *parameters):
+def _all_panels(integrand, points):
     """The integral by as many panels as the bound asks for."""
-    count = max(1, math.ceil(panels)) if panels < 1.0e9 else 1
-    half = 0.5 * (upper - lower) / count
-    total = _panel(integrand, lower + half, half, parameters)
-    for k in range(1, count):
-        total = _add(total, 1.0, _panel(integrand, lower + (2 * k + 1) * half, half, parameters))
-    return total
+    panel = _panel_of(integrand, points)
+
+    @njit(fastmath=FLAGS, error_model="numpy")
+    def integrate(panels, lower, upper, *parameters):
+        count = max(1, math.ceil(panels)) if panels < 1.0e9 else 1
+        half = 0.5 * (upper - lower) / count
+        total = panel(lower + half, half, parameters)
+        for k in range(1, count):
+            total = _add(total, 1.0, panel(lower + (2 * k + 1) * half, half, parameters))
+        return total
+
+    return integrate
 
 
 @inline
@@ -244,11 +269,11 @@ def _libm_atan2(y, x):
 def _primitives(pair, angle, integral):
     return {
         **_elementary(), **_trigonometry(pair, angle),
-        "sqrt": sqrt, "sincos": pair, "atan2": angle, "integrate": integral, "dsinc_series": series_of_dsinc,
+        "sqrt": sqrt, "sincos": pair, "atan2": angle, "integral": integral, "dsinc_series": series_of_dsinc,
     }  # fmt: skip
 
 
-FAST = _primitives(sincos, atan2, integrate_one_panel)
-SAFE = _primitives(_libm_sincos, _libm_atan2, integrate_panels)
+FAST = _primitives(sincos, atan2, _one_panel)
+SAFE = _primitives(_libm_sincos, _libm_atan2, _all_panels)
 
 __all__ = ["FAST", "FLAGS", "SAFE", "inline", "types"]
