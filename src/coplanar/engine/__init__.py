@@ -33,12 +33,14 @@ from coplanar.engine.arrays import (
 )
 from coplanar.engine.evaluator import Evaluator, can_compile, evaluator
 from coplanar.engine.foreign import components, is_foreign, namespace_of, stack
+from coplanar.engine.scan import Scan
 
 __all__ = [
     "PI",
     "TAU",
     "Evaluator",
     "Integral",
+    "Scan",
     "absolute",
     "asinh",
     "atan",
