@@ -13,7 +13,8 @@ from numba import njit
 from coplanar.engine.binding import bind
 from coplanar.engine.compiled import loops, scans
 from coplanar.engine.compiled.cache import in_folder
-from coplanar.engine.compiled.primitives import FAST, FLAGS, SAFE, inline
+from coplanar.engine.compiled.elementary import FLAGS, inline
+from coplanar.engine.compiled.primitives import FAST, SAFE
 
 PARALLEL_FROM = 200_000  # rows; below, starting threads costs more than they save
 
