@@ -13,8 +13,6 @@ _RULE = tuple(zip(NODES, WEIGHTS, strict=True))
 
 exp = math.exp
 absolute = abs
-minimum = min
-maximum = max
 
 
 def sincos(x: float) -> tuple[float, float]:
@@ -25,6 +23,21 @@ def sincos(x: float) -> tuple[float, float]:
 def sqrt(x: float) -> float:
     """Square root; zero for x <= 0, NaN for NaN."""
     return math.sqrt(x) if x > 0.0 else 0.0 * x
+
+
+def turn_remainder(x: float) -> float:
+    """The angle less the whole turns nearest to it, in [-pi, pi], without rounding."""
+    return math.remainder(x, TAU)
+
+
+def minimum(x: float, y: float) -> float:
+    """The smaller of two; NaN if one is."""
+    return x if x < y or x != x else y
+
+
+def maximum(x: float, y: float) -> float:
+    """The larger of two; NaN if one is."""
+    return x if x > y or x != x else y
 
 
 def nearest(x: float) -> float:
@@ -58,13 +71,15 @@ def dsinc(x: float) -> float:
 def integrate(integrand: Any, panels: float, lower: float, upper: float, *parameters: float) -> tuple[float, ...]:
     """Integral of ``integrand(s, *parameters)`` by 16-point Gauss-Legendre panels."""
     count = panel_count(panels)
-    half = 0.5 * (upper - lower) / count
-    total = [0.0] * len(integrand(lower, *parameters))
+    half = 0.5 * (upper - lower) / count if panels <= count else math.nan
+    total: list[float] = []
     for panel in range(count):
         middle = lower + (2 * panel + 1) * half
         for node, weight in _RULE:
-            for i, f in enumerate(integrand(middle + node * half, *parameters)):
-                total[i] += weight * f
+            terms = integrand(middle + node * half, *parameters)
+            total = (
+                [t + weight * f for t, f in zip(total, terms, strict=True)] if total else [weight * f for f in terms]
+            )
     return tuple([half * t for t in total])
 
 
@@ -98,5 +113,6 @@ __all__ = [
     "sqrt",
     "tan",
     "tanh",
+    "turn_remainder",
     "where",
 ]

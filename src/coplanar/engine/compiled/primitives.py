@@ -8,14 +8,17 @@ from __future__ import annotations
 
 import math
 
-from numba import njit, types
+import numpy as np
+from numba import njit
 from numba.extending import overload
 
-from coplanar.engine.arrays import DSINC_BELOW, SERIES_BELOW, dsinc_series
-from coplanar.engine.gauss import NODES, WEIGHTS
+from coplanar.engine.arrays import DSINC_BELOW, PI, SERIES_BELOW, TAU, dsinc_series
+from coplanar.engine.gauss import MOST_PANELS, NODES, WEIGHTS
 
 FLAGS = {"contract", "nsz"}  # fused multiply-add; no care for the sign of zero; NaN and infinity stay exact
-FAR = 1.0e5  # [rad] the three-part reduction by pi/2 is exact to here
+FAR = 1.0e5  # [rad] the reductions by pi/2 and by 2 pi are exact to here
+TAU_HIGH = 6.2831853069365025  # TAU to 32 bits, so that its products with whole numbers to 2^21 are exact
+TAU_LOW = TAU - TAU_HIGH  # the 21 bits left of TAU; exact
 
 
 def inline(function):
@@ -51,11 +54,14 @@ def sincos(x):
 
 @inline
 def atan2(y, x):
-    """Angle of (x, y): atan t = t + t z P(z), z = t^2, |t| <= tan(pi/8), P of degree 11 (error 1.2e-18)."""
+    """Angle of (x, y): atan t = t + t z P(z), z = t^2, |t| <= tan(pi/8), P of degree 11 (error 1.2e-18).
+
+    NaN where the sum of the sides is no number or overflows, and at the origin: there the C library answers.
+    """
     ay, ax = abs(y), abs(x)
     near, far = min(ax, ay), max(ax, ay)
     steep = near > 0.41421356237309503 * far
-    t = (near - far if steep else near) / (near + far if steep else far)
+    t = (near - far if steep else near) / (near + far if steep else far) + 0.0 * (ax + ay)
     z = t * t
     p = z * (-0.3333333333333333 + z * (0.19999999999999804 + z * (-0.14285714285659828 + z * (
         0.11111111105155447 + z * (-0.09090908753500877 + z * (0.07692296375032143 + z * (
@@ -66,6 +72,24 @@ def atan2(y, x):
     angle = (1.5707963267948966 - (angle - 6.123233995736766e-17)) if ay > ax else angle
     angle = (3.141592653589793 - (angle - 1.2246467991473532e-16)) if x < 0.0 else angle
     return math.copysign(angle, y)
+
+
+@inline
+def turn_remainder(x):
+    """The angle less the whole turns nearest to it; every product and difference here is exact to ``FAR``."""
+    turns = np.rint(x * (1.0 / TAU))
+    rest = (x - turns * TAU_HIGH) - turns * TAU_LOW
+    rest = rest - TAU if rest > PI else rest
+    rest = rest + TAU if rest < -PI else rest
+    return rest if abs(x) <= FAR else math.nan
+
+
+@inline
+def turn_remainder_by_fmod(x):
+    """The angle less the whole turns nearest to it, whatever the angle."""
+    rest = np.fmod(x, TAU)
+    rest = rest - TAU if rest > PI else rest
+    return rest + TAU if rest < -PI else rest
 
 
 @inline
@@ -121,8 +145,7 @@ def _elementary():
         return x if x > y or x != x else y  # NaN passes through, as in NumPy
 
     def nearest(x):
-        whole = math.floor(x + 0.5)
-        return whole - 1.0 if whole - x == 0.5 and whole % 2.0 == 1.0 else whole
+        return np.rint(x)
 
     def hypot(x, y):
         return math.hypot(x, y)
@@ -158,27 +181,15 @@ def _elementary():
         return math.copysign(x, y)
 
     def floor(x):
-        return math.floor(x) * 1.0
+        return np.floor(x)  # a float, where math.floor is an integer of 64 bits
 
     def absolute(x):
         return abs(x)
 
     texts = (
-        where,
-        minimum,
-        maximum,
-        nearest,
-        hypot,
-        exp,
-        log,
-        log1p,
-        expm1,
-        sinh,
-        cosh,
-        tanh,
-        asinh,
-        absolute,
-    )
+        where, minimum, maximum, nearest, floor, absolute, copysign, hypot,
+        exp, expm1, log, log1p, sinh, cosh, tanh, asinh, atanh,
+    )  # fmt: skip
     return {f.__name__: inline(f) for f in texts}
 
 
@@ -222,9 +233,9 @@ def integrate_one_panel(integrand, panels, lower, upper, *parameters):
 
 @njit(fastmath=FLAGS, error_model="numpy")
 def integrate_panels(integrand, panels, lower, upper, *parameters):
-    """The integral by as many panels as the bound asks for."""
-    count = max(1, math.ceil(panels)) if panels < 1.0e9 else 1
-    half = 0.5 * (upper - lower) / count
+    """The integral by as many panels as the bound asks for, NaN where it asks for too many."""
+    count = max(1, math.ceil(panels)) if panels <= MOST_PANELS else 1
+    half = 0.5 * (upper - lower) / count if panels <= MOST_PANELS else math.nan
     total = _panel(integrand, lower + half, half, parameters)
     for k in range(1, count):
         total = _add(total, 1.0, _panel(integrand, lower + (2 * k + 1) * half, half, parameters))
@@ -241,14 +252,18 @@ def _libm_atan2(y, x):
     return math.atan2(y, x)
 
 
-def _primitives(pair, angle, integral):
+def _primitives(pair, angle, rest, integral):
     return {
         **_elementary(), **_trigonometry(pair, angle),
-        "sqrt": sqrt, "sincos": pair, "atan2": angle, "integrate": integral, "dsinc_series": series_of_dsinc,
+        "sqrt": sqrt, "sincos": pair, "atan2": angle, "turn_remainder": rest, "integrate": integral,
+        "dsinc_series": series_of_dsinc,
     }  # fmt: skip
 
 
-FAST = _primitives(sincos, atan2, integrate_one_panel)
-SAFE = _primitives(_libm_sincos, _libm_atan2, integrate_panels)
+FAST = _primitives(sincos, atan2, turn_remainder, integrate_one_panel)
+SAFE = _primitives(_libm_sincos, _libm_atan2, turn_remainder_by_fmod, integrate_panels)
+NAN_WHERE_NOT = frozenset(
+    ("sincos", "sin", "cos", "tan", "sinc", "dsinc", "atan2", "atan", "turn_remainder", "integrate")
+)  # the fast ones that may answer NaN for a number
 
-__all__ = ["FAST", "FLAGS", "SAFE", "inline", "types"]
+__all__ = ["FAST", "FLAGS", "NAN_WHERE_NOT", "SAFE", "inline"]
