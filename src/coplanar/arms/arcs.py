@@ -21,7 +21,7 @@ from coplanar.laws import arms as laws
 from coplanar.laws import se2
 
 SIDE = 1e-6  # of the reach: how far beside an arc its two sides are looked at
-MERGE = 1e-9  # [rad] cuts nearer than this are one
+MERGE = 1e-7  # [rad] cuts nearer than this are one: where circles touch, rounding parts them by 1e-8
 
 _link = evaluator(laws.link)
 _two_link_inverse = evaluator(laws.two_link_inverse)
@@ -68,10 +68,13 @@ class Arc:
 
     def cut(self, others: list[Arc]) -> list[Arc]:
         """The pieces between the places where it meets the circles of the others."""
-        angles = [_wrap_up(a - self.start) for other in others for a in self._meets(other)]
-        stops = sorted({0.0, self.sweep, *(a for a in angles if MERGE < a < self.sweep - MERGE)})
-        pieces = itertools.pairwise(stops)
-        return [Arc(self.centre, self.radius, self.start + a, b - a) for a, b in pieces if b - a > MERGE]
+        angles = sorted((a - self.start) % math.tau for other in others for a in self._meets(other))
+        stops = [0.0]
+        for angle in angles:
+            if MERGE < angle - stops[-1] and angle < self.sweep - MERGE:
+                stops.append(angle)
+        pieces = itertools.pairwise([*stops, self.sweep])
+        return [Arc(self.centre, self.radius, self.start + a, b - a) for a, b in pieces if b > a]
 
     def _meets(self, other: Arc) -> list[float]:
         """Directions on this circle where the other circle crosses it: a triangle of two links."""
@@ -112,12 +115,12 @@ def _first_at_limit(chain: Chain) -> list[Arc]:
     """Link 1 at a limit: the tip turns about the elbow."""
     arcs = []
     l1, (l2, lean) = chain.links[0], geometry.tool_lever(chain)
-    for limit in (chain.lower[0], chain.upper[0]):
+    for limit in _pair(chain, 0):
         if math.isfinite(limit):
             first = chain.base.theta + limit + chain.bends[0]
             elbow = _link(chain.base.x, chain.base.y, first, l1)
             zero = lean + chain.bends[1] + (first if chain.angles == "relative" else chain.base.theta)
-            arcs.append(Arc(elbow, l2, *_span(zero, chain.lower[1], chain.upper[1])))
+            arcs.append(Arc(elbow, l2, *_span(zero, *_pair(chain, 1))))
     return arcs
 
 
@@ -126,16 +129,16 @@ def _second_at_limit(chain: Chain) -> list[Arc]:
     arcs = []
     l1, (l2, lean) = chain.links[0], geometry.tool_lever(chain)
     zero = chain.base.theta + chain.bends[0]
-    for limit in (chain.lower[1], chain.upper[1]):
+    for limit in _pair(chain, 1):
         if math.isfinite(limit):
             second = limit + chain.bends[1] + lean
             if chain.angles == "relative":
                 line = l1 + cmath.rect(l2, second)
-                span = _span(zero + cmath.phase(line), chain.lower[0], chain.upper[0])
+                span = _span(zero + cmath.phase(line), *_pair(chain, 0))
                 arcs.append(Arc((chain.base.x, chain.base.y), abs(line), *span))
             else:
                 centre = _link(chain.base.x, chain.base.y, chain.base.theta + second, l2)
-                arcs.append(Arc(centre, l1, *_span(zero, chain.lower[0], chain.upper[0])))
+                arcs.append(Arc(centre, l1, *_span(zero, *_pair(chain, 0))))
     return arcs
 
 
@@ -154,7 +157,7 @@ def _in_line(chain: Chain) -> list[Arc]:
 
 def _first_joint_in_line(chain: Chain, turn: float) -> list[tuple[float, float]]:
     """Intervals of the first joint for which the second may stand ``turn`` (and whole turns) from link 1."""
-    (low, high), (least, most) = zip(chain.lower.tolist(), chain.upper.tolist(), strict=True)
+    (low, high), (least, most) = _pair(chain, 0), _pair(chain, 1)
     if chain.angles == "relative":
         fits = math.floor((most - turn) / math.tau) >= math.ceil((least - turn) / math.tau) if math.isfinite(
             most - least
@@ -175,6 +178,5 @@ def _span(zero: float, low: float, high: float) -> tuple[float, float]:
     return zero + low, high - low
 
 
-def _wrap_up(angle: float) -> float:
-    """The same direction in [0, 2 pi)."""
-    return angle % math.tau
+def _pair(chain: Chain, joint: int) -> tuple[float, float]:
+    return float(chain.lower[joint]), float(chain.upper[joint])

@@ -147,8 +147,9 @@ class Chain:
             >>> Chain((1.0, 0.5)).jacobian_dot([0.0, 0.0], [1.0, 0.0], task="position").tolist()
             [[-1.5, -0.5], [0.0, 0.0]]
         """
-        posture = Posture.of(self, self.checked_joints("q", q))
-        return _matrix(column_rates(self, posture, self.checked_joints("q_rate", q_rate)), task)
+        at, rates = self.checked_joints("q", q), self.checked_joints("q_rate", q_rate)
+        checks.broadcast(q=at, q_rate=rates)
+        return _matrix(column_rates(self, Posture.of(self, at), rates), task)
 
     def is_within_limits(self, q: ArrayLike, *, tolerance: float = 1e-12) -> Any:
         """Whether every joint is inside its limits, to a tolerance [rad, m]: bool, or an array of the leading shape.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,6 +17,7 @@ from coplanar.laws import se2
 from coplanar.solving import LeastSquaresResult, Report, least_squares
 
 BENDS = (0.5, -0.5, 1.5, -1.5, 2.5)  # [rad] postures to start from, one attempt each: bent this much at every joint
+SPREAD = 10  # more attempts where joints are limited, spread over the limits by irrational steps
 LONGEST_STEP = 1.0  # [rad, m] a joint step for which the linear model still says something
 
 _ring_gap = evaluator(laws.ring_gap)
@@ -75,16 +77,29 @@ def search(
 ) -> Found:
     """The joints nearest to every target, shape (k, 2) or (k, 3), from ``near`` or from postures of its own."""
     task = Task(chain, target.shape[-1] == 3)
-    starts = [np.asarray(near)] if near is not None else []
-    starts += [bent(chain, target, bend) for bend in BENDS]
-    found = _attempt(task, starts[0], target, tolerance, iterations, single)
-    for start in starts[1:]:
+    starts = _starts(chain, target, near)
+    found = _attempt(task, next(starts), target, tolerance, iterations, single)
+    for start in starts:
         missed = found.miss > tolerance
         if not missed.any():
             break
         answer = _attempt(task, start[missed], target[missed], tolerance, iterations, single)
         found = _better(found, answer, missed)
     return found
+
+
+def _starts(chain: Chain, target: np.ndarray, near: np.ndarray | None) -> Iterator[np.ndarray]:
+    """Where each attempt begins: at ``near``, bent, and for limited arms spread over the limits, shape (k, n)."""
+    if near is not None:
+        yield near
+    for bend in BENDS:
+        yield bent(chain, target, bend)
+    if chain.limits is not None:
+        lower = np.where(np.isfinite(chain.lower), chain.lower, -np.pi)
+        upper = np.where(np.isfinite(chain.upper), chain.upper, np.pi)
+        for i in range(1, SPREAD + 1):
+            part = (i * np.sqrt([2.0, 3.0, 5.0, 7.0, 11.0, 13.0])[np.arange(chain.n) % 6] + 0.1 * chain.n) % 1.0
+            yield np.broadcast_to(lower + part * (upper - lower), (len(target), chain.n))
 
 
 def _attempt(

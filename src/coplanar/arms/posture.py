@@ -62,7 +62,7 @@ class Posture:
 def directions(chain: Chain, parts: Any) -> list[Real]:
     """Direction of every link in the world: phi_i = phi_(i-1) + q_i + bend_i, or base + q_i + bend_i if absolute."""
     angles: list[Real] = []
-    angle = chain.base.theta
+    angle = chain.base.theta + 0.0 * parts[0]  # slides alone turn nothing, and still have the shape of the batch
     for joint, value, bend in zip(chain.joints, parts, chain.bends, strict=True):
         if joint == "R":
             angle = (chain.base.theta if chain.angles == "absolute" else angle) + value
