@@ -1,8 +1,8 @@
 """Golden values for arms, by other means than the library's: run from the repository's root.
 
-The two-link inverse by the law of cosines with 50 digits (mpmath), Jacobians and their time derivatives by symbolic
-differentiation of the tip (sympy), the demo by MINPACK (scipy's fsolve), nearest points within joint limits by a bounded
-minimiser from many starts (scipy).
+The two-link inverse by the law of cosines with 50 digits (mpmath); Jacobians and their time derivatives by symbolic
+differentiation of the tip (sympy); the demo by MINPACK (scipy's fsolve); nearest points within joint limits by a
+bounded minimiser from many starts (scipy).
 """
 
 from __future__ import annotations
