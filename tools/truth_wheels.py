@@ -88,7 +88,9 @@ def layout_case(rng, count):
     rolling, lateral = [r[0] for r in rows], [r[1] for r in rows if len(r) > 1]
     matrix = mpmath.matrix(rolling + lateral)
     rates, twist = [rng.uniform(-9, 9) for _ in wheels], [rng.uniform(-2, 2) for _ in range(3)]
-    speeds = mpmath.matrix([mpmath.mpf(w[3]) * rate for w, rate in zip(wheels, rates, strict=True)] + [0] * len(lateral))
+    speeds = mpmath.matrix(
+        [mpmath.mpf(w[3]) * rate for w, rate in zip(wheels, rates, strict=True)] + [0] * len(lateral)
+    )
     best = mpmath.lu_solve(matrix.T * matrix, matrix.T * speeds)
     inverse = mpmath.matrix(rolling) * mpmath.matrix(twist)
     return {
@@ -114,7 +116,10 @@ def main():
     rng = random.Random(20)
     write(
         "wheels_wpimath.json", {"robotpy-wpimath": version("robotpy-wpimath")}, 1e-13,
-        {"differential": [differential_case(rng) for _ in range(40)], "mecanum": [mecanum_case(rng) for _ in range(40)]},
+        {
+            "differential": [differential_case(rng) for _ in range(40)],
+            "mecanum": [mecanum_case(rng) for _ in range(40)],
+        },
     )  # fmt: skip
     mpmath.mp.dps = 50
     thresholds = [[d, p, chi_square_threshold(d, p)] for d in (1, 2, 3, 5) for p in (0.1, 0.01, 1e-4)]

@@ -114,8 +114,13 @@ def clipped(rate, limit):
     return maximum(-limit, minimum(limit, rate))
 
 
+def turning_share(alone, together):
+    """The turning keeps what fits by itself, or together with the translation where that is more."""
+    return maximum(alone, together)
+
+
 def moving_share(share, turning, moving, limit):
-    """The largest share, up to the given one, with |turning + share moving| <= limit; |turning| <= limit."""
+    """The largest share, up to the given one, with |turning + share moving| <= limit, where any share fits."""
     room = maximum(limit - where(moving < 0.0, -turning, turning), 0.0)
     over = absolute(moving) > room
     return minimum(share, where(over, room / where(over, absolute(moving), 1.0), 1.0))

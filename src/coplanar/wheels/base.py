@@ -230,7 +230,7 @@ class WheeledBase(WheelRows):
             rates: Shape (..., N) [rad/s].
             max_rate: The largest rate of either sign, one for all wheels or (N,) [rad/s].
             policy: "scale" keeps the path and drives it more slowly; "clip" cuts each rate by itself and changes the
-                path; "keep_omega" keeps the turning as far as it fits and gives the rest to the translation.
+                path; "keep_omega" keeps the turning as far as it fits by itself and leaves the rest to the translation.
 
         Raises:
             UnknownName: If the policy is none of these.

@@ -16,11 +16,12 @@ from coplanar.se2 import Twist
 _clipped = evaluator(laws.clipped)
 _limited_share = evaluator(laws.limited_share)
 _moving_share = evaluator(laws.moving_share)
+_turning_share = evaluator(laws.turning_share)
 
 POLICIES = {
     "scale": "all rates times one share: the same path, driven more slowly",
     "clip": "each rate clipped by itself: the path changes",
-    "keep_omega": "the turning kept as far as it fits, the translation times one share: the path changes",
+    "keep_omega": "the turning kept as far as it fits by itself, the translation cut to the rest: the path changes",
 }
 
 
@@ -75,7 +76,7 @@ def limited(policy: str, rates: Any, turning_rates: Any, limits: tuple[float, ..
     if policy == "scale":
         kept = tuple(share * rate for rate in wanted)
     elif policy == "keep_omega":
-        turn_share = _share(turning, limits)
+        turn_share = _turning_share(_share(turning, limits), share)
         moving = [rate - turn for rate, turn in zip(wanted, turning, strict=True)]
         wheels = zip([turn_share * turn for turn in turning], moving, limits, strict=True)
         share = reduce(lambda least, wheel: _moving_share(least, *wheel), wheels, 1.0)
