@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 
 import numpy as np
 
@@ -54,13 +55,14 @@ class Mobility:
             tolerance: Singular values below this share of the largest, or of 1, count as zero [-].
         """
         scale = np.array([1.0, 1.0, length])
-        rows = np.concatenate([rolling, lateral]) / scale
-        values, driven, undriven, inverse = _split(rows, tolerance)
+        rows = np.concatenate([rolling, lateral])
+        values, driven, undriven, inverse = _split(rows / scale, tolerance)
+        inverse = _exact_inverse(rows) if len(driven) == 3 else inverse / scale[:, None]
         _, sliding, free, _ = _split(lateral / scale, tolerance)
-        admissible = _split(free @ driven.T @ driven, tolerance)[1] if free.size else free
+        admissible = _split(free @ driven.T @ driven, tolerance)[1] if free.size and undriven.size else free
         projection = (admissible.T @ admissible) * scale / scale[:, None]
         return cls(
-            length, frozen(values), len(driven), len(sliding), frozen(inverse / scale[:, None]),
+            length, frozen(values), len(driven), len(sliding), frozen(inverse),
             frozen(np.concatenate([driven, undriven])[-1] / scale), frozen(undriven / scale), frozen(free / scale),
             frozen(admissible / scale), frozen(projection),
         )  # fmt: skip
@@ -109,3 +111,20 @@ def _split(rows: np.ndarray, tolerance: float) -> tuple[np.ndarray, np.ndarray, 
     inverse = right[:rank].T @ (left[:, :rank] / values[:rank]).T
     padded = np.concatenate([values, np.zeros(3 - values.size)])
     return np.where(np.arange(3) < rank, padded, 0.0), right[:rank], right[rank:], inverse
+
+
+def _exact_inverse(rows: np.ndarray) -> np.ndarray:
+    """(A^T A)^-1 A^T by Cramer's rule in whole numbers, rounded once: what cancels by symmetry cancels exactly."""
+    A = [[Fraction(entry) for entry in row] for row in rows.tolist()]
+    p, q, r = ([_dot([row[i] for row in A], [row[j] for row in A]) for j in range(3)] for i in range(3))
+    adjugate = (_cross(q, r), _cross(r, p), _cross(p, q))
+    determinant = _dot(p, adjugate[0])
+    return np.array([[float(_dot(line, row) / determinant) for row in A] for line in adjugate])
+
+
+def _dot(a: list[Fraction], b: list[Fraction]) -> Fraction:
+    return sum((x * y for x, y in zip(a, b, strict=True)), Fraction(0))
+
+
+def _cross(a: list[Fraction], b: list[Fraction]) -> list[Fraction]:
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
