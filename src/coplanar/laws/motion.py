@@ -63,7 +63,8 @@ def drift(u, v, omega, a, alpha):
 def segment(x, y, theta, v, omega, a, alpha, dt):
     """Pose p + int_0^dt (v + a s) (cos, sin)(theta + omega s + alpha s^2/2) ds, taken about the middle, s = dt/2 + u.
 
-    What turning adds to the straight way is integrated. No panel turns by more than PANEL_PHASE: |omega + alpha s| is largest at an end.
+    What turning adds to the straight way is integrated. No panel turns by more than PANEL_PHASE, as |omega + alpha s|
+    is largest at an end.
     """
     half = 0.5 * dt
     middle_v, middle_omega = velocities(v, omega, a, alpha, half)
@@ -105,7 +106,7 @@ def segment_jacobian(theta, v, omega, a, alpha, dt):
 
 
 def curvature(v, omega, a, alpha):
-    """Curvature kappa = omega/v; infinite for a turn on the spot, at rest the limit alpha/a, and 0 where nothing moves."""
+    """Curvature kappa = omega/v; infinite for a turn on the spot, alpha/a at rest, 0 where nothing moves."""
     num = where(v != 0.0, omega, where(omega != 0.0, omega, alpha))
     den = where(v != 0.0, v, where(omega != 0.0, 0.0, a))
     spin = where(num > 0.0, NEVER, where(num < 0.0, -NEVER, 0.0))
