@@ -13,7 +13,7 @@ from numba import njit
 from coplanar.engine.binding import bind
 from coplanar.engine.compiled import loops
 from coplanar.engine.compiled.cache import in_folder
-from coplanar.engine.compiled.primitives import FAST, FLAGS, SAFE, inline
+from coplanar.engine.compiled.primitives import FAST, FLAGS, SAFE, inline, out_of_line
 
 PARALLEL_FROM = 200_000  # rows; below, starting threads costs more than they save
 
@@ -86,7 +86,7 @@ def _column(array, shape):
 def _compile(law, kind):
     names = {
         "law": bind(law, FAST, inline, _fast_laws),
-        "safe_law": bind(law, SAFE, _out_of_line, _safe_laws),
+        "safe_law": bind(law, SAFE, out_of_line, _safe_laws),
     }
     names["block"] = njit(_template(loops.block, law, names), fastmath=FLAGS, error_model="numpy", nogil=True)
     with in_folder() as cached:
@@ -102,8 +102,3 @@ def _template(text, law, names):
     function = FunctionType(text.__code__, {**vars(loops), **names}, name)
     function.__qualname__ = name
     return function
-
-
-def _out_of_line(function):
-    """The safe law is rare: compiled once beside the loop, not melted into it."""
-    return njit(function, fastmath=FLAGS, error_model="numpy")

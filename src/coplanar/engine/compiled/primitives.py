@@ -9,18 +9,50 @@ from __future__ import annotations
 import math
 
 from numba import njit, types
-from numba.extending import overload
+from numba.core.datamodel.models import OpaqueModel
+from numba.core.imputils import lower_constant
+from numba.extending import overload, register_model
 
 from coplanar.engine.arrays import DSINC_BELOW, SERIES_BELOW, dsinc_series
 from coplanar.engine.gauss import NODES, WEIGHTS
+
+X1, X2, X3, X4, X5, X6, X7, X8 = NODES[8:]  # the other half mirrors these
+W1, W2, W3, W4, W5, W6, W7, W8 = WEIGHTS[8:]
 
 FLAGS = {"contract", "nsz"}  # fused multiply-add; no care for the sign of zero; NaN and infinity stay exact
 FAR = 1.0e5  # [rad] the three-part reduction by pi/2 is exact to here
 
 
+class CompiledLaw:
+    """A compiled function that may be passed to another one, ``integrate``, within a loop that is kept on disk.
+
+    Numba hands a function over by its address, which is another one in the next process, and so refuses to keep the
+    loop. The function is known by its type alone, so here nothing is handed over.
+    """
+
+    def __init__(self, function) -> None:
+        self._function = function  # its type refers to it weakly
+        self._numba_type_ = _CompiledLawType(function)
+
+    def __call__(self, *args):
+        return self._function(*args)
+
+
+class _CompiledLawType(types.Dispatcher):
+    """The type of one compiled law."""
+
+
+register_model(_CompiledLawType)(OpaqueModel)
+
+
+@lower_constant(_CompiledLawType)
+def _no_value(context, builder, kind, value):
+    return context.get_dummy_value()
+
+
 def inline(function):
     """Compile a formula so that it melts into the loop that calls it."""
-    return njit(function, forceinline=True, fastmath=FLAGS, error_model="numpy")
+    return CompiledLaw(njit(function, forceinline=True, fastmath=FLAGS, error_model="numpy"))
 
 
 @inline
@@ -205,11 +237,24 @@ def _times_overload(terms, factor):
 
 
 @inline
+def _pair(integrand, middle, offset, weight, parameters):
+    """Two nodes, one on either side of the middle."""
+    both = _add(integrand(middle - offset, *parameters), 1.0, integrand(middle + offset, *parameters))
+    return _times(both, weight)
+
+
+@inline
 def _panel(integrand, middle, half, parameters):
     """One Gauss-Legendre panel about ``middle``."""
-    total = _times(integrand(middle + NODES[0] * half, *parameters), WEIGHTS[0])
-    for i in range(1, 16):
-        total = _add(total, WEIGHTS[i], integrand(middle + NODES[i] * half, *parameters))
+    # Written out: LLVM turns the loop over rows into vector code only where there is no other loop within it.
+    total = _pair(integrand, middle, half * X1, W1, parameters)
+    total = _add(total, 1.0, _pair(integrand, middle, half * X2, W2, parameters))
+    total = _add(total, 1.0, _pair(integrand, middle, half * X3, W3, parameters))
+    total = _add(total, 1.0, _pair(integrand, middle, half * X4, W4, parameters))
+    total = _add(total, 1.0, _pair(integrand, middle, half * X5, W5, parameters))
+    total = _add(total, 1.0, _pair(integrand, middle, half * X6, W6, parameters))
+    total = _add(total, 1.0, _pair(integrand, middle, half * X7, W7, parameters))
+    total = _add(total, 1.0, _pair(integrand, middle, half * X8, W8, parameters))
     return _times(total, half)
 
 
@@ -220,7 +265,12 @@ def integrate_one_panel(integrand, panels, lower, upper, *parameters):
     return _times(_panel(integrand, lower + half, half, parameters), 1.0 if panels <= 1.0 else math.nan)
 
 
-@njit(fastmath=FLAGS, error_model="numpy")
+def out_of_line(function):
+    """Compile a formula beside the loop that calls it, for what is rare."""
+    return CompiledLaw(njit(function, fastmath=FLAGS, error_model="numpy"))
+
+
+@out_of_line
 def integrate_panels(integrand, panels, lower, upper, *parameters):
     """The integral by as many panels as the bound asks for."""
     count = max(1, math.ceil(panels)) if panels < 1.0e9 else 1
@@ -251,4 +301,4 @@ def _primitives(pair, angle, integral):
 FAST = _primitives(sincos, atan2, integrate_one_panel)
 SAFE = _primitives(_libm_sincos, _libm_atan2, integrate_panels)
 
-__all__ = ["FAST", "FLAGS", "SAFE", "inline", "types"]
+__all__ = ["FAST", "FLAGS", "SAFE", "inline", "out_of_line"]
