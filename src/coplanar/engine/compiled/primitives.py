@@ -209,6 +209,9 @@ def _elementary():
         cosh,
         tanh,
         asinh,
+        atanh,
+        copysign,
+        floor,
         absolute,
     )
     return {f.__name__: inline(f) for f in texts}
