@@ -91,8 +91,8 @@ class Segment:
 
     def __getitem__(self, index: Any) -> Segment:
         """The same slice of every field."""
-        whole = np.broadcast_arrays(*self.parts)
-        return self._of(*(checks.frozen(checks.real("slice", p[index])) for p in whole))
+        whole = (np.broadcast_to(part, self.shape) for part in self.parts)
+        return self._of(*(checks.real("slice", part[index]) for part in whole))
 
     def pose(self, start: Pose, t: ArrayLike) -> Pose:
         """The pose p + int_0^t (v + a s) (cos, sin)(theta + omega s + alpha s^2/2) ds, exact to rounding.
