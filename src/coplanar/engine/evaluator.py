@@ -26,7 +26,7 @@ FIRST_COMPILED_ROWS = 20_000  # below this a batch never waits for the compiler
 COMPILED_ROWS = 100  # from here the compiled loop wins, once it is there
 
 _FLOAT = frozenset((float,))
-_FLOAT_PRIMITIVES = {name: getattr(scalars, name) for name in PRIMITIVES}
+_FLOAT_PRIMITIVES = {name: getattr(scalars, name) for name in (*PRIMITIVES, "integral")}
 _float_laws: dict[Any, Any] = {}
 
 
@@ -105,7 +105,7 @@ class Evaluator:
         outs = tuple(np.empty(shape, dtype) for _ in range(self._results)) if out is None else out
         if out is not None:
             _check_out(outs, self._results, shape, dtype)
-        self._compiled().run(inputs, outs, shape)
+        self.kernel().run(inputs, outs, shape)
         return outs if self._returns_tuple else outs[0]
 
     @functools.cached_property
@@ -120,7 +120,12 @@ class Evaluator:
     def _results(self) -> int:
         return len(self._one_answer) if self._returns_tuple else 1
 
-    def _compiled(self) -> Any:
+    def on_namespace(self, namespace: Any) -> Callable[..., Any]:
+        """The law over another array library's namespace."""
+        return _foreign_law(self.law, namespace)
+
+    def kernel(self) -> Any:
+        """The law's compiled loops; made once."""
         with self._lock:
             if self._kernel is None:
                 from coplanar.engine.compiled.kernels import Kernel
@@ -143,7 +148,7 @@ class Evaluator:
     def _on_foreign(self, args: tuple[Any, ...]) -> Any:
         xp, arrays = alike(args)
         shape = self._shape(arrays)
-        answer = _foreign_law(self.law, xp)(*arrays)
+        answer = self.on_namespace(xp)(*arrays)
         if isinstance(answer, tuple):
             return tuple(xp.broadcast_to(xp.asarray(a), shape) for a in answer)
         return xp.broadcast_to(xp.asarray(answer), shape)

@@ -35,9 +35,9 @@ class _Trace:
             "where": self._where,
             "copysign": self._copysign,
             "sincos": self._sincos,
-            "integrate": self._integrate,
+            "integral": self._integral,
         }
-        return {name: special.get(name) or self._ordinary(name) for name in PRIMITIVES}
+        return special | {name: self._ordinary(name) for name in PRIMITIVES if name not in special}
 
     def compare(self, *values):
         for value in values:
@@ -66,10 +66,13 @@ class _Trace:
         pair = self._new(angle)
         return pair, pair
 
-    def _integrate(self, integrand, panels, lower, upper, *parameters):
-        terms = integrand(self.join(lower, upper), *parameters)
-        enough = self._new(panels, lower, upper)
-        return tuple(self.join(term, enough) for term in terms)
+    def _integral(self, integrand, _points):
+        def integrate(panels, lower, upper, *parameters):
+            terms = integrand(self.join(lower, upper), *parameters)
+            enough = self._new(panels, lower, upper)
+            return tuple(self.join(term, enough) for term in terms)
+
+        return integrate
 
 
 class _Symbol:
