@@ -19,6 +19,8 @@ from coplanar.errors import InvalidShape, InvalidValue, UnknownName
 Real = Any  # a float, or an array of any library that follows the array API
 ArrayLike = Any
 
+_FLOATS = frozenset((float, np.float64))
+
 
 def real(name: str, value: ArrayLike, *, remedy: str = "") -> Real:
     """A finite number or array of finite numbers.
@@ -39,8 +41,8 @@ def real(name: str, value: ArrayLike, *, remedy: str = "") -> Real:
         >>> real("speed", 2), real("speed", [1, 2]).tolist()
         (2.0, [1.0, 2.0])
     """
-    if type(value) is float and math.isfinite(value):
-        return value
+    if type(value) in _FLOATS and math.isfinite(value):
+        return float(value)
     if is_foreign(value):
         return value
     array = _as_float64(name, value, remedy)
@@ -60,8 +62,7 @@ def positive(name: str, value: ArrayLike, *, remedy: str = "") -> Real:
         0.1
     """
     checked = real(name, value, remedy=remedy)
-    if not is_foreign(checked) and not np.all(np.greater(checked, 0.0)):
-        raise InvalidValue(name, value, _where("greater than 0", checked, np.greater(checked, 0.0)), remedy)
+    _demand(checked > 0.0, name, value, checked, "greater than 0", remedy)
     return checked
 
 
@@ -76,8 +77,7 @@ def not_negative(name: str, value: ArrayLike, *, remedy: str = "") -> Real:
         0.0
     """
     checked = real(name, value, remedy=remedy)
-    if not is_foreign(checked) and not np.all(np.greater_equal(checked, 0.0)):
-        raise InvalidValue(name, value, _where("0 or more", checked, np.greater_equal(checked, 0.0)), remedy)
+    _demand(checked >= 0.0, name, value, checked, "0 or more", remedy)
     return checked
 
 
@@ -192,6 +192,13 @@ def _is_immutable(array: np.ndarray) -> bool:
             return False
         owner = owner.base
     return owner is None or isinstance(owner, bytes)
+
+
+def _demand(fine: Any, name: str, value: Any, checked: Real, needed: str, remedy: str) -> None:
+    if fine is True or is_foreign(checked):
+        return
+    if not np.all(fine):
+        raise InvalidValue(name, value, _where(needed, checked, fine), remedy)
 
 
 def _where(needed: str, checked: Real, fine: Any) -> str:

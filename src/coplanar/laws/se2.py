@@ -6,13 +6,18 @@ Exponential coordinates (dx, dy, dtheta) are a displacement seen from the moving
 Sources: Lynch and Park 2017, Modern Robotics, ch. 3; Sola, Deray, Atchuthan 2018, A micro Lie theory, sec. IV.
 """
 
-from coplanar.engine import PI, TAU, absolute, dsinc, hypot, sinc, sincos, turn_remainder, where
+from coplanar.engine import PI, TAU, absolute, atan2, dsinc, hypot, sinc, sincos, turn_remainder, where
 
 
 def wrap(angle):
     """The same direction in (-pi, pi]: whole turns of TAU taken off, without rounding."""
     rest = turn_remainder(angle)
     return where(rest <= -PI, rest + TAU, rest)
+
+
+def heading(cosine, sine):
+    """Heading in (-pi, pi] of the direction (cos theta, sin theta), of any length but 0."""
+    return wrap(atan2(sine, cosine))
 
 
 def rotate(theta, px, py):
