@@ -155,9 +155,14 @@ def test_on_the_base_an_equal_armed_elbow_folds_and_the_first_joint_keeps_its_pl
     assert answer.q.tolist() == pytest.approx([0.7, np.pi])
     assert "free" in answer.sentence()
     assert ELBOW_ARM.inverse(target).q[0] == 0.0
-    hole = Arm((1.0, 0.8)).inverse(target)
-    assert hole.status is Reach.TOO_CLOSE
-    assert hole.gap == pytest.approx(0.2)
+
+
+def test_next_to_the_base_of_unequal_links_the_hole_is_left_towards_the_target():
+    for target in ((0.0, 0.0), (0.0, 1e-10), (0.0, -1e-10)):
+        hole = Arm((1.0, 0.8)).inverse(target)
+        assert hole.status is Reach.TOO_CLOSE
+        assert hole.gap == pytest.approx(0.2 - np.hypot(*target), abs=1e-15)
+        assert hole.position_error() == pytest.approx(hole.gap, abs=1e-15)
 
 
 def test_next_to_the_base_of_an_equal_armed_elbow_the_tip_is_exact():
