@@ -195,6 +195,17 @@ def test_wheel_speeds_about_the_centre(half_track, v, omega, pose):
     )  # fmt: skip
 
 
+@given(seed=seeds)
+@settings(deadline=None, max_examples=20)
+def test_bracket_is_the_commutator(seed):
+    """[xi1, xi2] of twists is xi1^ xi2^ - xi2^ xi1^ of their matrices [[0, -omega, vx], [omega, 0, vy], [0, 0, 0]]."""
+    one, other = np.random.default_rng(seed).normal(size=(2, 3))
+    hats = [np.array([[0.0, -omega, vx], [omega, 0.0, vy], [0.0, 0.0, 0.0]]) for vx, vy, omega in (one, other)]
+    bracket = evaluator(laws.twist_bracket)(*one, *other)
+    commutator = hats[0] @ hats[1] - hats[1] @ hats[0]
+    np.testing.assert_allclose(bracket, [commutator[0, 2], commutator[1, 2], commutator[1, 0]], atol=100 * EPS)
+
+
 @given(seed=seeds, heading=speeds)
 @settings(deadline=None, max_examples=30)
 def test_constraints(seed, heading):

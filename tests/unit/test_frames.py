@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import pickle
 
 import numpy as np
 import pytest
@@ -43,6 +44,7 @@ def test_a_tree_is_a_value(tree):
         tree.root = "other"
     assert tree.lineage("camera") == ("camera", "robot", "world")
     assert (tree.parent("camera"), tree.parent("world")) == ("robot", None)
+    assert pickle.loads(pickle.dumps(tree)) == tree
     assert FrameTree(frames=[Frame("a", "world", Pose())]).frames == (Frame("a", "world", Pose()),)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import pickle
 from math import cos, pi, sin
 
 import numpy as np
@@ -161,6 +162,9 @@ def test_what_is_kept_cannot_be_changed():
     assert base == mecanum()
     assert hash(base) == hash(mecanum())
     assert base != mecanum(radius=0.2)
+    copy = pickle.loads(pickle.dumps(base))
+    assert copy == base
+    assert copy.forward([1.0, 2.0, 3.0, 4.0]) == base.forward([1.0, 2.0, 3.0, 4.0])
 
 
 def test_three_wheels_at_120_degrees():
