@@ -69,8 +69,9 @@ class NoSolution(CoplanarError):
 class MissingExtra(CoplanarError, ImportError):
     """An optional dependency is absent; the message holds the command that installs it."""
 
-    def __init__(self, package: str, extra: str) -> None:
-        super().__init__(f"{package} is not installed: run  pip install 'coplanar[{extra}]'")
+    def __init__(self, package: str, extra: str = "") -> None:
+        wanted = f"'coplanar[{extra}]'" if extra else package
+        super().__init__(f"{package} is not installed: run  pip install {wanted}")
 
 
 def _short(value: object) -> str:
