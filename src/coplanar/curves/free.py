@@ -28,8 +28,8 @@ class FreeCurve(Curve):
     """A curve given by a function phi -> (x, y).
 
     Derivatives that are not given are taken by five-point differences. For a function that is smooth over ``scale``
-    (its fifth and sixth derivatives about 1/scale^5 and 1/scale^6 of its size) the first is good to 1e-12 of
-    size/scale inside the interval and 2e-12 at the ends of an open one, the second to 1e-9 and 1e-6;
+    (its fifth and sixth derivatives about 1/scale^5 and 1/scale^6 of its size) the first is good to 1e-11 of
+    size/scale, the second to 1e-8 of size/scale^2 and 1e-6 at the ends of an open one;
     ``derivative_error`` estimates the first for the function at hand. With ``differences="complex"`` the first
     derivative is Im f(phi + i h)/h, good to rounding, for functions that accept complex numbers and are analytic
     there (no ``abs``, no comparisons).
@@ -73,11 +73,11 @@ class FreeCurve(Curve):
         """An estimate of the error of ``derivative`` [m per unit of phi], shape (...).
 
         Differences with the step and with twice the step differ by 15 times the truncation error of the first;
-        rounding adds 1.5 eps |P|/h. Zero where the derivative was given.
+        rounding adds at most 11 eps |P|/h. Zero where the derivative was given.
 
         Example:
             >>> circle = FreeCurve(lambda u: (np.cos(u), np.sin(u)), (0.0, 6.0))
-            >>> bool(circle.derivative_error(1.0) < 1e-11)
+            >>> bool(circle.derivative_error(1.0) < 1e-10)
             True
         """
         phi = self._inside(parameter)
@@ -88,7 +88,7 @@ class FreeCurve(Curve):
             return _EPS * size / self.scale
         step = _STEPS[1] * self.scale
         apart = np.abs(self._differences(phi, 1, 2.0 * step) - self._differences(phi, 1, step)).max(-1)
-        return apart / 15.0 + 1.5 * _EPS * size / step
+        return apart / 15.0 + 11.0 * _EPS * size / step
 
     def _at(self, parameter: Real, order: int) -> tuple[Real, Real]:
         given = (self.function, self.first, self.second)[order]
