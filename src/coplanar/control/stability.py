@@ -74,10 +74,15 @@ class StabilityReport:
             raise NoSolution(str(self), self)
         return self
 
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """The status (of an array, the worst), then the warnings."""
+        worst: Stability = max(np.ravel(self.status), key=list(Stability).index)
+        return (worst.value, *self.warnings)
+
     def __str__(self) -> str:
         """The sentences, one a line."""
-        worst = max(np.ravel(self.status), key=list(Stability).index)
-        return "\n".join((worst.value, *self.warnings))
+        return "\n".join(self.sentences)
 
 
 def loop_poles(step: Real, kp: Real, kd: Real, ki: Real) -> np.ndarray:
