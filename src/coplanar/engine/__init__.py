@@ -3,6 +3,7 @@
 from coplanar.engine.arrays import (
     PI,
     TAU,
+    Integral,
     absolute,
     asinh,
     atan,
@@ -16,7 +17,6 @@ from coplanar.engine.arrays import (
     expm1,
     floor,
     hypot,
-    integrate,
     log,
     log1p,
     maximum,
@@ -33,11 +33,14 @@ from coplanar.engine.arrays import (
 )
 from coplanar.engine.evaluator import Evaluator, can_compile, evaluator
 from coplanar.engine.foreign import components, is_foreign, namespace_of, stack
+from coplanar.engine.scan import Scan
 
 __all__ = [
     "PI",
     "TAU",
     "Evaluator",
+    "Integral",
+    "Scan",
     "absolute",
     "asinh",
     "atan",
@@ -54,7 +57,6 @@ __all__ = [
     "expm1",
     "floor",
     "hypot",
-    "integrate",
     "is_foreign",
     "log",
     "log1p",

@@ -25,7 +25,7 @@ FIRST_COMPILED_ROWS = 20_000  # below this a batch never waits for the compiler
 COMPILED_ROWS = 100  # from here the compiled loop wins, once it is there
 
 _NUMBERS = frozenset((float, int, bool))
-_FLOAT_PRIMITIVES = {name: getattr(scalars, name) for name in PRIMITIVES}
+_FLOAT_PRIMITIVES = {name: getattr(scalars, name) for name in (*PRIMITIVES, "integral")}
 _float_laws: dict[Any, Any] = {}
 
 
@@ -96,10 +96,15 @@ class Evaluator:
         first = self(*(float(a.reshape(-1)[0]) if a.size else 0.0 for a in inputs))
         dtype = inputs[0].dtype
         outs = out or tuple(np.empty(shape, dtype) for _ in (first if isinstance(first, tuple) else (first,)))
-        self._compiled().run(inputs, outs, shape)
+        self.kernel().run(inputs, outs, shape)
         return outs if isinstance(first, tuple) else outs[0]
 
-    def _compiled(self) -> Any:
+    def on_namespace(self, namespace: Any) -> Callable[..., Any]:
+        """The law over another array library's namespace."""
+        return _foreign_law(self.law, namespace)
+
+    def kernel(self) -> Any:
+        """The law's compiled loops; made once."""
         with self._lock:
             if self._kernel is None:
                 from coplanar.engine.compiled.kernels import Kernel
@@ -113,7 +118,7 @@ class Evaluator:
 
     def _on_foreign(self, args: tuple[Any, ...]) -> Any:
         xp = namespace_of(next(a for a in args if is_foreign(a)))
-        return _foreign_law(self.law, xp)(*(xp.asarray(a) for a in args))
+        return self.on_namespace(xp)(*(xp.asarray(a) for a in args))
 
 
 @functools.cache

@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from typing import Any
 
 import numpy as np
 
-_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(16)
-NODES: tuple[float, ...] = tuple(_POINTS.tolist())
-WEIGHTS: tuple[float, ...] = tuple(_WEIGHTS.tolist())
+
+@functools.cache
+def rule(points: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Nodes in (-1, 1) and weights of the Gauss-Legendre rule.
+
+    Example:
+        >>> nodes, weights = rule(2)
+        >>> round(nodes[1] ** 2 * 3, 12), sum(weights)
+        (1.0, 2.0)
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(points)
+    return tuple(nodes.tolist()), tuple(weights.tolist())
+
 
 UNKNOWN = 16  # panels where the count is not known yet: an array that is being traced has no values
 

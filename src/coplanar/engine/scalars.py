@@ -7,9 +7,7 @@ from math import asinh, atan, atan2, atanh, copysign, cos, cosh, expm1, hypot, l
 from typing import Any
 
 from coplanar.engine.arrays import DSINC_BELOW, PI, SERIES_BELOW, TAU, dsinc_series
-from coplanar.engine.gauss import NODES, WEIGHTS, panel_count
-
-_RULE = tuple(zip(NODES, WEIGHTS, strict=True))
+from coplanar.engine.gauss import panel_count, rule
 
 exp = math.exp
 absolute = abs
@@ -55,17 +53,22 @@ def dsinc(x: float) -> float:
     return x * dsinc_series(x * x) if abs(x) < DSINC_BELOW else (cos(x) - sin(x) / x) / x
 
 
-def integrate(integrand: Any, panels: float, lower: float, upper: float, *parameters: float) -> tuple[float, ...]:
-    """Integral of ``integrand(s, *parameters)`` by 16-point Gauss-Legendre panels."""
-    count = panel_count(panels)
-    half = 0.5 * (upper - lower) / count
-    total = [0.0] * len(integrand(lower, *parameters))
-    for panel in range(count):
-        middle = lower + (2 * panel + 1) * half
-        for node, weight in _RULE:
-            for i, f in enumerate(integrand(middle + node * half, *parameters)):
-                total[i] += weight * f
-    return tuple([half * t for t in total])
+def integral(integrand: Any, points: int) -> Any:
+    """The integral of a law that was bound to these primitives, by Gauss-Legendre panels."""
+    pairs = tuple(zip(*rule(points), strict=True))
+
+    def integrate(panels: float, lower: float, upper: float, *parameters: float) -> tuple[float, ...]:
+        count = panel_count(panels)
+        half = 0.5 * (upper - lower) / count
+        total: list[float] | None = None
+        for panel in range(count):
+            middle = lower + (2 * panel + 1) * half
+            for node, weight in pairs:
+                terms = [weight * f for f in integrand(middle + node * half, *parameters)]
+                total = terms if total is None else list(map(float.__add__, total, terms))
+        return tuple([half * t for t in total or ()])
+
+    return integrate
 
 
 __all__ = [
@@ -85,7 +88,7 @@ __all__ = [
     "expm1",
     "floor",
     "hypot",
-    "integrate",
+    "integral",
     "log",
     "log1p",
     "maximum",

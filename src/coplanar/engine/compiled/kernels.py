@@ -11,9 +11,10 @@ import numpy as np
 from numba import njit
 
 from coplanar.engine.binding import bind
-from coplanar.engine.compiled import loops
+from coplanar.engine.compiled import loops, scans
 from coplanar.engine.compiled.cache import in_folder
-from coplanar.engine.compiled.primitives import FAST, FLAGS, SAFE, inline
+from coplanar.engine.compiled.elementary import FLAGS, inline
+from coplanar.engine.compiled.primitives import FAST, SAFE
 
 PARALLEL_FROM = 200_000  # rows; below, starting threads costs more than they save
 
@@ -24,12 +25,35 @@ _process = os.getpid()
 
 
 class Kernel:
-    """A law as a loop over rows: ``run(inputs, outputs, shape)`` fills the outputs."""
+    """A law inside compiled loops: ``run`` over rows, ``scan`` over steps of rows."""
 
     def __init__(self, law) -> None:
         self._law = law
         self._lock = threading.Lock()
         self._loops: dict = {}
+
+    def scan(self, initial, inputs, parameters, outputs, size):
+        """Carry the state from step to step.
+
+        Args:
+            initial: Arrays of one entry or of as many as there are rows.
+            inputs: Arrays of ``steps`` entries, or of ``steps`` times ``rows``.
+            parameters: Arrays like ``initial``.
+            outputs: Flat arrays of ``rows`` entries for the end, or of (steps + 1) times ``rows``.
+            size: Steps and rows.
+        """
+        count, width = size
+        owned = [array.size != count for array in inputs]
+        begin, walk = zip(*(_column(a, (width,)) for a in initial), strict=True)
+        held = [_column(a, (width,)) for a in parameters]
+        shared = tuple(a for a, own in zip(inputs, owned, strict=True) if not own)
+        own = tuple(a for a, own in zip(inputs, owned, strict=True) if own)
+        pattern = sum(1 << k for k, own in enumerate(owned) if own)
+        arguments = (
+            begin, walk, shared, own, tuple(c for c, _ in held), tuple(s for _, s in held), outputs, (count, width)
+        )  # fmt: skip
+        constants = (("KEEP", outputs[0].size > width), ("PATTERN", pattern))
+        self._loop("scan", arguments, count * width, width, constants)
 
     def run(self, inputs, outputs, shape):
         """Evaluate the law on every row of the broadcast inputs.
@@ -44,7 +68,7 @@ class Kernel:
         ready = [_column(a, shape) for a in inputs]
         if all(column is not None for column, _ in ready):
             ins, steps = zip(*ready, strict=True)
-            self._loop(ins, steps, columns, rows)
+            self._loop("rows", (ins, steps, columns, rows), rows, rows)
             return
         whole = [np.broadcast_to(a, shape).flat for a in inputs]
         span = 16 * loops.BLOCK
@@ -55,51 +79,57 @@ class Kernel:
                 for (column, step), flat in zip(ready, whole, strict=True)
             )
             steps = tuple(step if column is not None else 1 for column, step in ready)
-            self._loop(ins, steps, tuple(c[start:stop] for c in columns), stop - start)
+            outs = tuple(c[start:stop] for c in columns)
+            self._loop("rows", (ins, steps, outs, stop - start), stop - start, stop - start)
 
-    def _loop(self, ins, steps, columns, rows):
+    def _loop(self, kind, arguments, work, rows, constants=()):
         """Threads where they pay and are free; a forked child never touches the parent's threads."""
-        if rows >= PARALLEL_FROM and os.getpid() == _process and _threads.acquire(blocking=False):
+        threads_pay = work >= PARALLEL_FROM and rows >= 2 * loops.BLOCK and os.getpid() == _process
+        if threads_pay and _threads.acquire(blocking=False):
             try:
-                self._compiled("parallel")(ins, steps, columns, rows)
+                self._compiled(f"{kind}_parallel", constants)(*arguments)
             finally:
                 _threads.release()
         else:
-            self._compiled("serial")(ins, steps, columns, rows)
+            self._compiled(f"{kind}_serial", constants)(*arguments)
 
-    def _compiled(self, kind):
+    def _compiled(self, loop, constants):
         with self._lock:
-            if kind not in self._loops:
-                self._loops[kind] = _compile(self._law, kind)
-            return self._loops[kind]
+            if (loop, constants) not in self._loops:
+                self._loops[loop, constants] = _compile(self._law, loop, constants)
+            return self._loops[loop, constants]
 
 
 def _column(array, shape):
     """The array as a flat column and its step, or None where it has to be spread first."""
-    if array.size == 1:
+    if array.size == 1 and shape != (1,):
         return np.full(loops.BLOCK, array.reshape(-1)[0], array.dtype), 0
     if array.shape == shape and array.flags.c_contiguous:
         return array.reshape(-1), 1
     return None, 1
 
 
-def _compile(law, kind):
+def _compile(law, loop, constants):
+    module = scans if loop.startswith("scan") else loops
+    label = "_".join([law.__module__.rpartition(".")[2], law.__name__, *(f"{k}{v}" for k, v in constants)])
     names = {
         "law": bind(law, FAST, inline, _fast_laws),
         "safe_law": bind(law, SAFE, _out_of_line, _safe_laws),
+        **dict(constants),
     }
-    names["block"] = njit(_template(loops.block, law, names), fastmath=FLAGS, error_model="numpy", nogil=True)
+    for part in module.PARTS:
+        names[part.__name__] = njit(_template(part, label, names), fastmath=FLAGS, error_model="numpy", nogil=True)
     with in_folder() as cached:
         return njit(
-            _template(getattr(loops, kind), law, names),
-            fastmath=FLAGS, error_model="numpy", nogil=True, cache=cached, parallel=kind == "parallel",
+            _template(getattr(module, loop), label, names),
+            fastmath=FLAGS, error_model="numpy", nogil=True, cache=cached, parallel=loop.endswith("parallel"),
         )  # fmt: skip
 
 
-def _template(text, law, names):
-    """The loop's code over this law's names; its own qualified name keeps the caches of two laws apart."""
-    name = f"{text.__name__}_{law.__module__.rpartition('.')[2]}_{law.__name__}"
-    function = FunctionType(text.__code__, {**vars(loops), **names}, name)
+def _template(text, label, names):
+    """The loop's code over these names; its own qualified name keeps the caches of two laws apart."""
+    name = f"{text.__name__}_{label}"
+    function = FunctionType(text.__code__, {**text.__globals__, **names}, name)
     function.__qualname__ = name
     return function
 
