@@ -12,8 +12,8 @@ from coplanar.checks import ArrayLike, Real
 from coplanar.control.advice import tracker_warnings
 from coplanar.control.controller import Timed, as_column
 from coplanar.control.stability import StabilityReport, judge, loop_poles, margin_of, moving_poles, stable_below
-from coplanar.control.unicycle import METHODS, ROWS, Command, State
-from coplanar.engine import components, evaluator, stack
+from coplanar.control.unicycle import ROWS, Command, State, lead_of
+from coplanar.engine import Scan, components, evaluator, stack
 from coplanar.errors import InvalidValue
 from coplanar.laws import control as laws
 from coplanar.se2 import Pose
@@ -23,6 +23,8 @@ _gain_sum = evaluator(laws.gain_sum)
 _point_velocity = evaluator(laws.point_velocity)
 _point_command = evaluator(laws.point_command)
 _track_point = evaluator(laws.track_point)
+_tracking_arc = Scan(laws.tracking_arc)
+_tracking_step = Scan(laws.tracking_step)
 _turn_per_step = evaluator(laws.turn_per_step)
 _turn_rate = evaluator(laws.turn_rate)
 
@@ -153,10 +155,9 @@ class PointTracker:
             UnknownName: If the method is not known.
             InvalidValue: If the step is not positive or the speed negative.
         """
-        checks.choice("method", method, METHODS)
+        lead = lead_of(method)
         h, fast = checks.positive("step", step), checks.not_negative("speed", speed)
         lag = fast / self.kp if error is None else np.abs(checks.real("error", error))
-        lead = ROWS[method].lead if method in ROWS else 0.5
         gains = (self.kp, self.kd, self.ki)
         total, turn = _gain_sum(h, *gains), _turn_per_step(h, fast, self.px)
         poles = loop_poles(h, *gains)
@@ -203,3 +204,11 @@ class PointTracker:
             *state, *target, *memory, self.px, self.py, self.kp, self.kd, self.ki, step
         )
         return (v, omega), (ex, ey), (ex, ey, total_x, total_y)
+
+    def roll(self, state: State, targets: Any, steps: np.ndarray, method: str) -> tuple[np.ndarray, ...]:
+        """The whole closed loop of a unicycle in one go: x, y, theta, v, omega, ex, ey, each (steps + 1, ...)."""
+        scan, row = (_tracking_arc, ()) if method == "exact" else (_tracking_step, ROWS[method])
+        memory = (0.0,) * 6
+        parameters = (self.px, self.py, self.kp, self.kd, self.ki, *row)
+        columns: tuple[np.ndarray, ...] = scan((*state, *memory), (*targets, steps), parameters)[:7]
+        return columns

@@ -17,8 +17,8 @@ from coplanar.laws import control as laws
 _pd_poles = evaluator(laws.pd_poles)
 _pid_polynomial = evaluator(laws.pid_polynomial)
 _lateral_polynomial = evaluator(laws.lateral_polynomial)
+_lateral_margin = evaluator(laws.lateral_margin)
 _largest_step = evaluator(laws.largest_step)
-_turn_per_step = evaluator(laws.turn_per_step)
 
 
 class Stability(Enum):
@@ -120,9 +120,8 @@ def stable_below(gains: tuple[Real, Real, Real], px: Real, speed: Real, lead: fl
         return still
 
     def leaves(step: Real) -> np.ndarray:
-        turn = _turn_per_step(step, speed, px)
-        inside: np.ndarray = np.abs(moving_poles(step, gains, turn, lead)).max(-1) < 1.0
-        return ~inside
+        outside: np.ndarray = np.less_equal(_lateral_margin(step, *gains, speed, px, lead), 0.0)
+        return outside
 
     shape = np.broadcast_shapes(*(np.shape(v) for v in (still, px, speed)))
     fractions = (np.arange(1, samples + 1) / samples).reshape(-1, *(1 for _ in shape))

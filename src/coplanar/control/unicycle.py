@@ -9,33 +9,29 @@ from coplanar import checks
 from coplanar.checks import Real
 from coplanar.engine import evaluator
 from coplanar.laws import control as laws
-from coplanar.laws import se2
 
-_rates = evaluator(laws.unicycle_rates)
-_arc = evaluator(se2.step)
+_arc = evaluator(laws.unicycle_arc)
+_step = evaluator(laws.unicycle_step)
 
 
 class Row(NamedTuple):
-    """Nodes c and weights b of an explicit Runge-Kutta method.
+    """Weights of a Runge-Kutta method with the nodes 0, 1/2 and 1; see ``laws.control.unicycle_step``."""
 
-    The rates of a unicycle depend on the heading alone, which turns evenly while the command is held, so that the
-    stage headings are theta + c_i h omega whatever the matrix of the method.
-    """
-
-    nodes: tuple[float, ...]
-    weights: tuple[float, ...]
+    at_start: float
+    at_middle: float
+    at_end: float
 
     @property
     def lead(self) -> float:
-        """The sum of b_i c_i: how much of the turn within a step its displacement feels; 1/2 from order 2 on."""
-        return sum(b * c for b, c in zip(self.weights, self.nodes, strict=True))
+        """The sum of weight x node: how much of the turn within a step its displacement feels."""
+        return 0.5 * self.at_middle + self.at_end
 
 
 ROWS = {
-    "euler": Row((0.0,), (1.0,)),
-    "midpoint": Row((0.0, 0.5), (0.0, 1.0)),
-    "heun": Row((0.0, 1.0), (0.5, 0.5)),
-    "rk4": Row((0.0, 0.5, 0.5, 1.0), (1 / 6, 1 / 3, 1 / 3, 1 / 6)),
+    "euler": Row(1.0, 0.0, 0.0),
+    "midpoint": Row(0.0, 1.0, 0.0),
+    "heun": Row(0.5, 0.0, 0.5),
+    "rk4": Row(1 / 6, 2 / 3, 1 / 6),
 }
 METHODS = (*ROWS, "exact")
 State = tuple[Real, Real, Real]
@@ -63,13 +59,18 @@ class Unicycle:
         Raises:
             UnknownName: If the method is none of these.
         """
-        (x, y, theta), (v, omega) = state, command
-        if method == "exact":
-            x, y, theta = _arc(x, y, theta, v * step, 0.0, omega * step)
-            return x, y, theta
         checks.choice("method", method, METHODS)
-        turn = omega * step
-        for node, weight in zip(*ROWS[method], strict=True):
-            dx, dy, _ = _rates(theta + node * turn, v, omega)
-            x, y = x + weight * step * dx, y + weight * step * dy
-        return x, y, theta + turn
+        after: State = (
+            _arc(*state, *command, step) if method == "exact" else _step(*state, *command, step, *ROWS[method])
+        )
+        return after
+
+
+def lead_of(method: str) -> float:
+    """How much of the turn within a step the displacement feels: 0 for Euler, 1/2 for the others.
+
+    Raises:
+        UnknownName: If the method is not known.
+    """
+    checks.choice("method", method, METHODS)
+    return 0.5 if method == "exact" else ROWS[method].lead

@@ -11,13 +11,33 @@ Robots, sec. 3.6.2; Aicardi, Casalino, Bicchi, Balestrino 1995, Closed loop stee
 """
 
 from coplanar.engine import PI, absolute, atan2, copysign, cos, hypot, maximum, minimum, sinc, sincos, sqrt, where
-from coplanar.laws.se2 import act, rotate, wrap
+from coplanar.laws.se2 import act, rotate, step, wrap
 
 
 def unicycle_rates(theta, v, omega):
     """(xdot, ydot, thetadot) = (v cos theta, v sin theta, omega)."""
     s, c = sincos(theta)
     return v * c, v * s, omega
+
+
+def unicycle_step(x, y, theta, v, omega, h, at_start, at_middle, at_end):
+    """(x, y) + h v sum of w_i (cos, sin)(theta + c_i h omega) at c = 0, 1/2, 1; theta + h omega.
+
+    The heading turns evenly while the command is held, so that a Runge-Kutta method with nodes 0, 1/2 and 1 is the
+    quadrature rule of its weights: Euler (1, 0, 0), midpoint (0, 1, 0), Heun (1/2, 0, 1/2), classical (1, 4, 1)/6.
+    """
+    turn, way = h * omega, h * v
+    s0, c0 = sincos(theta)
+    s1, c1 = sincos(theta + 0.5 * turn)
+    s2, c2 = sincos(theta + turn)
+    forward = at_start * c0 + at_middle * c1 + at_end * c2
+    sideways = at_start * s0 + at_middle * s1 + at_end * s2
+    return x + way * forward, y + way * sideways, theta + turn
+
+
+def unicycle_arc(x, y, theta, v, omega, h):
+    """The arc of a held command: T exp(v h, 0, omega h)."""
+    return step(x, y, theta, v * h, 0.0, omega * h)
 
 
 def center_under(point_x, point_y, theta, px, py):
@@ -55,6 +75,47 @@ def track_point(x, y, theta, rx, ry, fx, fy, last_x, last_y, sum_x, sum_y, px, p
     return v, omega, ex, ey, total_x, total_y
 
 
+def tracking_step(
+    x,
+    y,
+    theta,
+    v,
+    omega,
+    last_x,
+    last_y,
+    sum_x,
+    sum_y,
+    rx,
+    ry,
+    fx,
+    fy,
+    h,
+    px,
+    py,
+    kp,
+    kd,
+    ki,
+    at_start,
+    at_middle,
+    at_end,
+):
+    """``track_point``, then ``unicycle_step``: one turn of the closed loop."""
+    v, omega, ex, ey, sum_x, sum_y = track_point(
+        x, y, theta, rx, ry, fx, fy, last_x, last_y, sum_x, sum_y, px, py, kp, kd, ki, h
+    )
+    x, y, theta = unicycle_step(x, y, theta, v, omega, h, at_start, at_middle, at_end)
+    return x, y, theta, v, omega, ex, ey, sum_x, sum_y
+
+
+def tracking_arc(x, y, theta, v, omega, last_x, last_y, sum_x, sum_y, rx, ry, fx, fy, h, px, py, kp, kd, ki):
+    """``track_point``, then ``unicycle_arc``: one turn of the closed loop."""
+    v, omega, ex, ey, sum_x, sum_y = track_point(
+        x, y, theta, rx, ry, fx, fy, last_x, last_y, sum_x, sum_y, px, py, kp, kd, ki, h
+    )
+    x, y, theta = unicycle_arc(x, y, theta, v, omega, h)
+    return x, y, theta, v, omega, ex, ey, sum_x, sum_y
+
+
 def pd_poles(h, kp, kd):
     """Roots of z^2 - (1 - h kp - kd) z - kd, as (Re z1, Im z1, Re z2, Im z2), the larger real one first."""
     middle = 0.5 * (1.0 - h * kp - kd)
@@ -79,7 +140,8 @@ def lateral_polynomial(h, kp, kd, ki, g, lead):
     """The loop across a straight reference: heading and error together, highest power first.
 
     (z - m)(z (z - 1)(z - 1 + g) + (h kp z + kd (z - 1)) B) + h^2 ki z^2 B,  B = (1 + lead g)(z - 1) + g;
-    lead = sum b_i c_i of the plant's Butcher row: 0 for Euler, 1/2 from order 2 on; m as in ``pid_polynomial``.
+    m as in ``pid_polynomial``; lead = half the weight at_middle plus that at_end of ``unicycle_step``: 0 for Euler,
+    1/2 from order 2 on.
     """
     memory = where(ki > 0.0, 1.0, 0.0)
     slope, drop = 1.0 + lead * g, 1.0 + lead * g - g
@@ -88,6 +150,28 @@ def lateral_polynomial(h, kp, kd, ki, g, lead):
     a1 = 1.0 - g - gain * drop - kd * slope
     a0 = kd * drop
     return 1.0 + 0.0 * a2, a2 - memory + pull * slope, a1 - memory * a2 - pull * drop, a0 - memory * a1, -memory * a0
+
+
+def schur_cohn(a1, a2, a3, a4):
+    """Least 1 - |k| over the reflection coefficients of z^4 + a1 z^3 + a2 z^2 + a3 z + a4.  [Jury 1964]
+
+    Above 0 if and only if all four roots are inside the unit circle.
+    """
+    rest = 1.0 - a4 * a4
+    scale = where(rest > 0.0, rest, 1.0)
+    b1, b2, b3 = (a1 - a4 * a3) / scale, (a2 - a4 * a2) / scale, (a3 - a4 * a1) / scale
+    rest = 1.0 - b3 * b3
+    scale = where(rest > 0.0, rest, 1.0)
+    c1, c2 = (b1 - b3 * b2) / scale, (b2 - b3 * b1) / scale
+    d1 = c1 / where(c2 > -1.0, 1.0 + c2, 1.0)
+    largest = maximum(maximum(absolute(a4), absolute(b3)), maximum(absolute(c2), absolute(d1)))
+    return 1.0 - largest
+
+
+def lateral_margin(h, kp, kd, ki, speed, px, lead):
+    """``schur_cohn`` of ``lateral_polynomial``: above 0 where the loop across a moving reference is stable."""
+    one, a1, a2, a3, a4 = lateral_polynomial(h, kp, kd, ki, turn_per_step(h, speed, px), lead)
+    return schur_cohn(a1 / one, a2 / one, a3 / one, a4 / one)
 
 
 def gain_sum(h, kp, kd, ki):

@@ -19,6 +19,7 @@ from coplanar.checks import ArrayLike
 from coplanar.engine import stack
 from coplanar.errors import InvalidShape, InvalidValue, MissingExtra, UnknownName
 from coplanar.run.files import read_table, write_table
+from coplanar.run.summary import summary_of
 from coplanar.se2 import Pose
 
 
@@ -288,26 +289,10 @@ class Run:
             >>> Run({"t": [0, 2], "x": [0, 3], "y": [0, 4], "theta": [0, 0]}, "unicycle").summary()["distance"]
             5.0
         """
-        kind = self.kind if isinstance(self.kind, str) else "custom"
-        first, last = float(self.t[0]), float(self.t[-1])
-        facts: dict[str, Any] = {"kind": kind, "status": self.status.value, "rows": len(self), "robots": self.shape}
-        facts |= {"start": first, "duration": last - first, "warnings": self.warnings}
-        if {"x", "y"} <= set(self.columns):
-            pieces = np.hypot(np.diff(self["x"], axis=0), np.diff(self["y"], axis=0))
-            facts["distance"] = _number(pieces.sum(0))
-        facts |= {f"final_{name}": _number(self[name][-1]) for name in self.names.states}
-        facts |= {f"largest_{name}": _number(np.abs(self[name]).max(0)) for name in self.names.commands}
-        if self.names.errors[:2] == ("ex", "ey"):
-            sizes = np.hypot(self["ex"], self["ey"])
-            facts |= {"largest_error": _number(sizes.max(0)), "rms_error": _number(np.sqrt((sizes**2).mean(0)))}
-        return facts
+        return summary_of(self)
 
 
 def _unwound(angles: np.ndarray) -> np.ndarray:
     """Angles without jumps of a turn, if they stay within one turn; those that already wind are left alone."""
     wound = np.ptp(angles, axis=0) > 2.0 * np.pi * (1.0 + 1e-12)
     return np.where(wound, angles, np.unwrap(angles, axis=0))
-
-
-def _number(value: Any) -> Any:
-    return float(value) if np.ndim(value) == 0 else value

@@ -10,7 +10,7 @@ import numpy as np
 
 from coplanar import checks
 from coplanar.checks import ArrayLike, Real
-from coplanar.control import METHODS, Controller, Limits
+from coplanar.control import METHODS, Controller, Limits, Unicycle
 from coplanar.control.controller import Timed
 from coplanar.errors import InvalidShape, InvalidValue
 from coplanar.run import Run, RunStatus
@@ -73,17 +73,27 @@ def simulate(
     shape = _shape(first, controller, noise)
     targets = controller.targets(reference, times, len(shape))
     state = tuple(np.broadcast_to(part, shape) if shape else float(part) for part in first.parts)
-    errors = len(controller.error_names)
-    table = np.zeros((len(times), 5 + errors, *shape))
-    table[0, :3] = state
-    shaken = noise.draw(len(steps), shape) if noise else np.zeros((len(steps), 5) + (1,) * len(shape))
-    each_step = zip(_rows(targets, shape), _rows(shaken.swapaxes(0, 1), shape), steps.tolist(), strict=True)
-    rows = _loop((plant, controller, limits, method), state, each_step)
+    bare = limits is None and noise is None and type(plant) is Unicycle
+    roll = getattr(controller, "roll", None) if shape and bare else None
+    if roll:
+        columns = roll(state, targets, steps, method)
+    else:
+        shaken = noise.draw(len(steps), shape) if noise else np.zeros((len(steps), 5) + (1,) * len(shape))
+        each_step = zip(_rows(targets, shape), _rows(shaken.swapaxes(0, 1), shape), steps.tolist(), strict=True)
+        rows = _loop((plant, controller, limits, method), state, each_step)
+        columns = _filled(np.zeros((5 + len(controller.error_names), len(times), *shape)), state, rows)
+    return _run(columns, times, (controller, reference, steps, method, noise))
+
+
+def _filled(table: np.ndarray, state: Any, rows: Iterator[tuple[Real, ...]]) -> np.ndarray:
+    """The table (columns, rows, ...) with its rows, as far as they go."""
     last = 0
+    for place, value in enumerate(state):
+        table[place, 0] = value
     for last, row in enumerate(rows, 1):
         for place, value in enumerate(row):
-            table[last, place] = value
-    return _run(table[: last + 1], times[: last + 1], (controller, reference, steps, method, noise))
+            table[place, last] = value
+    return table[:, : last + 1]
 
 
 def _loop(parts: tuple[Any, ...], state: Any, each_step: Any) -> Iterator[tuple[Real, ...]]:
@@ -142,16 +152,20 @@ def _rows(columns: Any, shape: tuple[int, ...]) -> Iterator[tuple[Any, ...]]:
     return zip(*(c if shape else np.asarray(c).tolist() for c in columns), strict=True)
 
 
-def _run(table: np.ndarray, times: np.ndarray, made_of: tuple[Any, ...]) -> Run:
+def _run(columns: Any, times: np.ndarray, made_of: tuple[Any, ...]) -> Run:
     controller, reference, steps, method, noise = made_of
     names = ("x", "y", "theta", "v", "omega", *controller.error_names)
-    columns = {"t": times} | {name: table[:, i] for i, name in enumerate(names)}
-    finite = np.isfinite(table).all()
+    alive = np.isfinite(columns[0] + columns[1] + columns[2]).reshape(len(columns[0]), -1)
+    rows = len(alive) if alive.any(1).all() else int(alive.any(1).argmin()) + 1
+    for column in columns:
+        column.flags.writeable = False
     return Run(
-        columns, "unicycle", status=RunStatus.COMPLETE if finite else RunStatus.DIVERGED,
+        {"t": times[:rows]} | {name: column[:rows] for name, column in zip(names, columns, strict=True)},
+        "unicycle",
+        status=RunStatus.COMPLETE if alive.all() else RunStatus.DIVERGED,
         warnings=_warnings(controller, reference, times, steps, method),
         info={"method": method, "step": float(steps[0]), "seed": noise.seed if noise else None},
-    )  # fmt: skip
+    )
 
 
 def _warnings(
