@@ -21,7 +21,7 @@ def test_times_must_be_monotone(t):
 
 @pytest.mark.parametrize("t", [[0.0], 1.0, [[0.0, 1.0]]])
 def test_times_must_be_a_vector(t):
-    with pytest.raises(InvalidShape, match="^t = .shape"):
+    with pytest.raises(InvalidShape, match=r"^t = .shape"):
         integrate_ode(decay, t, 1.0)
 
 
