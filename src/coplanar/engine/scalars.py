@@ -11,8 +11,6 @@ from coplanar.engine.gauss import panel_count, rule
 
 exp = math.exp
 absolute = abs
-minimum = min
-maximum = max
 
 
 def sincos(x: float) -> tuple[float, float]:
@@ -23,6 +21,21 @@ def sincos(x: float) -> tuple[float, float]:
 def sqrt(x: float) -> float:
     """Square root; zero for x <= 0, NaN for NaN."""
     return math.sqrt(x) if x > 0.0 else 0.0 * x
+
+
+def turn_remainder(x: float) -> float:
+    """The angle less the whole turns nearest to it, in [-pi, pi], without rounding."""
+    return math.remainder(x, TAU)
+
+
+def minimum(x: float, y: float) -> float:
+    """The smaller of two; NaN if one is."""
+    return x if x < y or x != x else y
+
+
+def maximum(x: float, y: float) -> float:
+    """The larger of two; NaN if one is."""
+    return x if x > y or x != x else y
 
 
 def nearest(x: float) -> float:
@@ -59,7 +72,7 @@ def integral(integrand: Any, points: int) -> Any:
 
     def integrate(panels: float, lower: float, upper: float, *parameters: float) -> tuple[float, ...]:
         count = panel_count(panels)
-        half = 0.5 * (upper - lower) / count
+        half = 0.5 * (upper - lower) / count if panels <= count else math.nan
         total: list[float] | None = None
         for panel in range(count):
             middle = lower + (2 * panel + 1) * half
@@ -101,5 +114,6 @@ __all__ = [
     "sqrt",
     "tan",
     "tanh",
+    "turn_remainder",
     "where",
 ]
