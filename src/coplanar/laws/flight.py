@@ -74,7 +74,7 @@ def sides(c, s):
 def pace(v0, k, g):
     """Scale of q in theta, q = expm1(theta)/a: a = b + g + sqrt(b (b + g)) [m/s^2], b = k v0^2 + g/50."""
     b = (k + FAINTEST) * v0 * v0 + 0.02 * g
-    return b + g + sqrt(b * (b + g))
+    return b + g + sqrt(b) * sqrt(b + g)  # not sqrt(b (b + g)): b may be as great as 1e300
 
 
 def theta_of_straight(t, v0, k, g):
