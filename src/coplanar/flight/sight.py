@@ -108,7 +108,7 @@ class Sight:
         """Low arc, lofted arc and the best angle, all from the zenith, and the farthest range, for a speed.
 
         The two arcs are searched on either side of the best angle, where the range is monotone. Near the greatest range
-        they merge like its square root, so Newton runs on the root of what is missing to it. Beyond it, both are the best.
+        they merge like its square root: Newton runs on the root of what is missing to it. Beyond it, both are the best.
         """
         best, top = self.farthest(speed)
         most = top.distance

@@ -248,3 +248,31 @@ def hold_off(kd):
     """
     z = 2.0 * kd
     return 0.5 * z - 0.5 * log1p(z * (2.0 / 3.0 + 0.5 * z))
+
+
+def first_climb(x, y, time, k, g):
+    """Velocity w with w T = d + the fall, the fall being g T^2/2 without drag and T sqrt(g/k) in the end, nearly."""
+    return x / time, y / time + 0.5 * g * time / (1.0 + 0.5 * time * sqrt(k * g))
+
+
+def launch_speed_of_mean(mean, time, k):
+    """Speed v0 = (exp(k w T) - 1)/(k T) that drag alone turns into a mean speed w over T, and its slope by w."""
+    return mean * expm1_ratio(k * mean * time), exp(k * mean * time)
+
+
+def straight_time(distance, speed, k):
+    """Time over a straight distance against drag alone: (exp(k d) - 1)/(k v0)."""
+    return distance / speed * expm1_ratio(k * distance)
+
+
+def energy(mass, y, vx, vy, g):
+    """Kinetic and potential energy: T = m v^2/2, V = m g y."""
+    return 0.5 * mass * (vx * vx + vy * vy), mass * g * y
+
+
+def miss_across(x_v, y_v, x_psi, y_psi, vx, vy, sigma_speed, sigma_angle):
+    """Standard deviation of the way by which the path passes the target, to first order in independent errors."""
+    v = hypot(vx, vy)
+    by_speed = sigma_speed * (vx * y_v - vy * x_v) / v
+    by_angle = sigma_angle * (vx * y_psi - vy * x_psi) / v
+    return hypot(by_speed, by_angle)

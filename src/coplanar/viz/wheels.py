@@ -27,7 +27,9 @@ def plot_base(base: WheeledBase, ax: Axes | None = None) -> Axes:
     for number, (wheel, radius) in enumerate(zip(base.wheels, base.radii, strict=True), 1):
         along = radius * np.array([np.cos(wheel.drive_angle), np.sin(wheel.drive_angle)])
         here = np.array([wheel.x, wheel.y])
-        ax.plot(*np.column_stack([here - along, here + along]), linewidth=9, solid_capstyle="butt", color="C0", alpha=0.8)
+        ax.plot(
+            *np.column_stack([here - along, here + along]), linewidth=9, solid_capstyle="butt", color="C0", alpha=0.8
+        )
         if wheel.roller_angle is not None:
             free = wheel.drive_angle + 0.5 * np.pi + wheel.roller_angle
             across = 0.5 * radius * np.array([np.cos(free), np.sin(free)])

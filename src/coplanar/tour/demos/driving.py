@@ -166,7 +166,14 @@ def _driven(program: Program, step: float) -> tuple[np.ndarray, np.ndarray, floa
     t, poses = program.sample(Pose(), step)
     state, error = np.zeros(3), 0.0
     for piece, end in zip(program, program.poses(Pose()).as_array()[1:], strict=True):
-        states = integrate_ode(_rates(piece), [0.0, float(piece.duration)], state, method="DOP853", relative_tolerance=1e-12, absolute_tolerance=1e-13)
+        states = integrate_ode(
+            _rates(piece),
+            [0.0, float(piece.duration)],
+            state,
+            method="DOP853",
+            relative_tolerance=1e-12,
+            absolute_tolerance=1e-13,
+        )
         state = states[-1]
         error = max(error, float(np.hypot(*(state - end)[:2])))
     return t, poses.as_array(), error
