@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from coplanar import errors
-from coplanar.flight import AimStatus, Projectile
+from coplanar.flight import AimStatus, Projectile, forms, roots
 from coplanar.flight.roots import falling_root, rising_root
 
 BALL = Projectile(mass=1.0, drag=0.02)
@@ -75,6 +75,15 @@ class TestAim:
             aim = heavy.aim((1e4, 0.0), **words)
             assert aim.status is AimStatus.TOO_FAST
             assert aim.miss() == np.inf
+
+    @pytest.mark.parametrize("words", [{"speed": 30.0}, {"angle": 1.0}, {"time": 2.0}, {}])
+    def test_a_search_that_stops_early_says_so(self, words, monkeypatch):
+        monkeypatch.setattr(roots, "ROUNDS", 1)
+        monkeypatch.setattr(forms, "ROUNDS", 1)
+        aim = BALL.aim((20.0, 5.0), **words)
+        assert aim.status is AimStatus.NOT_FOUND
+        with pytest.raises(errors.NoSolution, match="stopped before"):
+            aim.or_raise()
 
     def test_near_and_far_targets_in_one_batch(self):
         aim = BALL.aim([(10.0, 0.0), (60.0, 0.0)], speed=30.0)

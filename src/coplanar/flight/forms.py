@@ -29,6 +29,7 @@ _straight_time = evaluator(laws.straight_time)
 
 UPRIGHT = 1e-9  # cosine of a line of sight that counts as vertical: the shot is a straight one, leaning by first order
 ALONG = 1e-12  # [rad] between a launch and the line of sight that counts as along it, where only along it will do
+ASTRAY = 1e-9  # part of the distance by which a launch that was found may miss; it misses by about 1e-14
 ROUNDS = 60  # of Newton for the flight time; it takes about six
 MOST_HOLD = 115.0  # k times mean speed times time: beyond, the speed of launch is about 1e50 times the mean speed
 
@@ -125,8 +126,9 @@ def by_speed(way: Way, speed: np.ndarray) -> Answer:
     low, high, best, most = sight.both(length, speed)
     far = length > most
     low, high = np.where(far, best, low), np.where(far, best, high)
-    arcs = [_launched(sight, np.minimum(length, most), speed, zenith) for zenith in (low, high)]
-    code, furthest = np.where(far, OUT_OF_REACH, HIT), most
+    (one, lost), (two, lost_too) = (_launched(sight, np.minimum(length, most), speed, z) for z in (low, high))
+    arcs, furthest = [one, two], most
+    code = np.where(lost | lost_too, NOT_FOUND, np.where(far, OUT_OF_REACH, HIT))
     for special, instead in ((way.upright, _upright_by_speed), (way.weightless, _straight_by_speed)):
         if special.any():
             other = instead(way, speed)
@@ -141,8 +143,8 @@ def by_angle(way: Way, cosine: np.ndarray, sine: np.ndarray) -> Answer:
     zenith = np.arctan2(cosine, sine)
     below = (zenith > ALONG) & (zenith < sight.zenith)
     speed = sight.speed_for(length, np.where(below, zenith, 0.5 * sight.zenith))
-    arc = _launched(sight, length, speed, np.where(below, zenith, 0.5 * sight.zenith))
-    code = np.where(below, np.where(np.isfinite(speed), HIT, TOO_FAST), OFF_THE_LINE)
+    arc, lost = _launched(sight, length, speed, np.where(below, zenith, 0.5 * sight.zenith))
+    code = np.where(below, _found(speed, lost), OFF_THE_LINE)
     along = (np.abs(way.x * sine - way.y * cosine) <= ALONG * way.distance) & (way.x * cosine + way.y * sine > 0.0)
     drops = way.upright & (np.abs(cosine) <= ALONG) & (way.y < 0.0) & ~way.weightless
     code = np.where(way.upright | way.weightless, OFF_THE_LINE, code)
@@ -157,8 +159,8 @@ def by_least(way: Way) -> Answer:
     """The least speed of all and its angle; there is none where the target is straight below, or without gravity."""
     sight, length = way.ordinary()
     speed, zenith = sight.least(length)
-    arc = _launched(sight, length, speed, zenith)
-    code = np.where(np.isfinite(speed), HIT, TOO_FAST)
+    arc, lost = _launched(sight, length, speed, zenith)
+    code = _found(speed, lost)
     climbs = way.upright & (way.y > 0.0)
     code = np.where(climbs, HIT, code)
     code = np.where(way.weightless | (way.upright & (way.y <= 0.0)), ANY_SPEED, code)
@@ -184,16 +186,21 @@ def _solve(a: Row, b: Row, c: Row, d: Row, e: Row, f: Row) -> tuple[Row, Row]:
         return (d * e - b * f) / det, (a * f - c * e) / det
 
 
-def _launched(sight: Sight, length: Row, speed: Row, zenith: Row) -> tuple[Row, Row, Row]:
-    """The velocity, and the time at which the path is nearest to the end of the line of sight.
+def _found(speed: Row, lost: Row) -> Row:
+    return np.where(np.isfinite(speed), np.where(lost, NOT_FOUND, HIT), TOO_FAST)
+
+
+def _launched(sight: Sight, length: Row, speed: Row, zenith: Row) -> tuple[tuple[Row, Row, Row], Row]:
+    """The velocity, the time at which the path is nearest to the end of the line of sight, and whether it misses that.
 
     A path that is nearly parallel to the line crosses it at a place known less well than the path itself.
     """
     path = sight.path(np.where(np.isfinite(speed), speed, 1.0), zenith)
     end, _ = crossing(path, sight.cosine, sight.sine)
-    ahead = (length * sight.cosine - end.x) * end.vx + (length * sight.sine - end.y) * end.vy
-    later = ahead / (end.vx * end.vx + end.vy * end.vy)
-    return speed * path.cosine, speed * path.sine, end.time + np.where(np.isfinite(speed), later, 0.0)
+    dx, dy = length * sight.cosine - end.x, length * sight.sine - end.y
+    later = (dx * end.vx + dy * end.vy) / (end.vx * end.vx + end.vy * end.vy)
+    lost = ~(np.hypot(dx - later * end.vx, dy - later * end.vy) <= ASTRAY * length)
+    return (speed * path.cosine, speed * path.sine, end.time + later), lost
 
 
 def _straight_by_speed(way: Way, speed: Row) -> Answer:
