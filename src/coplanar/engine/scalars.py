@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from math import asinh, atan, atan2, atanh, copysign, cos, cosh, expm1, hypot, log, log1p, sin, sinh, tan, tanh
+from operator import mul
 from typing import Any
 
 from coplanar.engine.arrays import DSINC_BELOW, PI, SERIES_BELOW, TAU, dsinc_series
@@ -68,18 +69,17 @@ def dsinc(x: float) -> float:
 
 def integral(integrand: Any, points: int) -> Any:
     """The integral of a law that was bound to these primitives, by Gauss-Legendre panels."""
-    pairs = tuple(zip(*rule(points), strict=True))
+    nodes, weights = rule(points)
 
     def integrate(panels: float, lower: float, upper: float, *parameters: float) -> tuple[float, ...]:
         count = panel_count(panels)
         half = 0.5 * (upper - lower) / count if panels <= count else math.nan
-        total: list[float] | None = None
-        for panel in range(count):
-            middle = lower + (2 * panel + 1) * half
-            for node, weight in pairs:
-                terms = [weight * f for f in integrand(middle + node * half, *parameters)]
-                total = terms if total is None else list(map(float.__add__, total, terms))
-        return tuple([half * t for t in total or ()])
+        sums = []
+        for k in range(count):
+            middle = lower + (2 * k + 1) * half
+            rows = [integrand(middle + node * half, *parameters) for node in nodes]
+            sums.append([half * sum(map(mul, weights, column)) for column in zip(*rows, strict=True)])
+        return tuple(map(sum, zip(*sums, strict=True)))
 
     return integrate
 
