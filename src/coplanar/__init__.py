@@ -7,7 +7,6 @@ from coplanar.arms import Arm
 from coplanar.control import PointTracker, PolarController, Unicycle
 from coplanar.curves import Astroid, Circle, Ellipse, FreeCurve, Lemniscate, Line, Polyline, Spline
 from coplanar.errors import CoplanarError, InvalidInput, NoSolution
-from coplanar.flight import Projectile
 from coplanar.frames import FrameTree, coordinates, from_coordinates
 from coplanar.integrators import integrate_ode
 from coplanar.motion import DrivingHistory, HolonomicMotion, Odometry, OdometryNoise, Program, Ramp, Segment, Trapezoid
@@ -42,7 +41,6 @@ __all__ = [
     "Polyline",
     "Pose",
     "Program",
-    "Projectile",
     "Ramp",
     "RollingWheel",
     "Run",
