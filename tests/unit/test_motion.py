@@ -160,7 +160,7 @@ def test_samples_end_at_the_end():
 def test_samples_of_commands_are_checked():
     with pytest.raises(InvalidValue, match="increasing"):
         Program.from_samples(1.0, 0.0, [1.0, 0.0])
-    with pytest.raises(InvalidShape, match=r"v = .*needed shape \(\.\.\., 3\) or \(\.\.\., 2\)"):
+    with pytest.raises(InvalidShape, match=r"v .*needed shape \(\.\.\., 3\) or \(\.\.\., 2\)"):
         Program.from_samples([1.0] * 4, 0.0, [0.0, 1.0, 2.0])
     one, other = (Program.from_samples([1.0, 2.0, 3.0][:n], 0.5, [0.0, 1.0, 3.0]).end(Pose()) for n in (2, 3))
     assert one == other

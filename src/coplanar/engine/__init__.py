@@ -3,6 +3,7 @@
 from coplanar.engine.arrays import (
     PI,
     TAU,
+    Integral,
     absolute,
     asinh,
     atan,
@@ -16,7 +17,6 @@ from coplanar.engine.arrays import (
     expm1,
     floor,
     hypot,
-    integrate,
     log,
     log1p,
     maximum,
@@ -29,15 +29,19 @@ from coplanar.engine.arrays import (
     sqrt,
     tan,
     tanh,
+    turn_remainder,
     where,
 )
 from coplanar.engine.evaluator import Evaluator, can_compile, evaluator
 from coplanar.engine.foreign import components, is_foreign, namespace_of, stack
+from coplanar.engine.scan import Scan
 
 __all__ = [
     "PI",
     "TAU",
     "Evaluator",
+    "Integral",
+    "Scan",
     "absolute",
     "asinh",
     "atan",
@@ -54,7 +58,6 @@ __all__ = [
     "expm1",
     "floor",
     "hypot",
-    "integrate",
     "is_foreign",
     "log",
     "log1p",
@@ -70,5 +73,6 @@ __all__ = [
     "stack",
     "tan",
     "tanh",
+    "turn_remainder",
     "where",
 ]

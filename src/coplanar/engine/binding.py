@@ -1,7 +1,7 @@
 """One text, other names: run the code object of a law over another set of primitives.
 
-A law is looked up in three kinds of names: primitives (replaced), other laws (bound in turn) and constants
-(kept). Nothing is compiled from text and nothing is rewritten: the law keeps its file and its line numbers.
+A law is looked up in four kinds of names: primitives (replaced), other laws and integrals of laws (bound in turn) and
+constants (kept). Nothing is compiled from text and nothing is rewritten: the law keeps its file and its line numbers.
 """
 
 from __future__ import annotations
@@ -14,7 +14,9 @@ from typing import Any
 from coplanar.engine import arrays
 
 PRIMITIVES: frozenset[str] = frozenset(
-    name for name, value in vars(arrays).items() if isinstance(value, FunctionType) and name != "panel_count"
+    name
+    for name, value in vars(arrays).items()
+    if isinstance(value, FunctionType) and not name.startswith("_") and name not in ("panel_count", "rule")
 )
 
 
@@ -57,6 +59,9 @@ def _rebound(law: Any, primitives: Mapping[str, Any], wrap: Any, done: dict[Any,
             names[name] = primitives[name]
         elif isinstance(value, FunctionType):
             names[name] = bind(value, primitives, wrap, done)
+        elif isinstance(value, arrays.Integral):
+            make = primitives.get("integral", arrays.Integral)
+            names[name] = make(bind(value.integrand, primitives, wrap, done), value.points)
         elif value is not names:
             names[name] = value
     function = FunctionType(law.__code__, names, law.__name__, law.__defaults__, law.__closure__)
@@ -67,4 +72,8 @@ def _rebound(law: Any, primitives: Mapping[str, Any], wrap: Any, done: dict[Any,
 def array_primitives(namespace: types.ModuleType) -> dict[str, Any]:
     """The array text of every primitive, bound to another array library's namespace."""
     names = dict(vars(arrays), xp=namespace)
-    return {name: FunctionType(getattr(arrays, name).__code__, names, name) for name in PRIMITIVES}
+    primitives: dict[str, Any] = {
+        name: FunctionType(getattr(arrays, name).__code__, names, name) for name in PRIMITIVES
+    }
+    primitives["integral"] = lambda integrand, points: arrays.Integral(integrand, points, primitives["where"])
+    return primitives

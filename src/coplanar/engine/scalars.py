@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import math
 from math import asinh, atan, atan2, atanh, copysign, cos, cosh, expm1, hypot, log, log1p, sin, sinh, tan, tanh
+from operator import mul
 from typing import Any
 
 from coplanar.engine.arrays import DSINC_BELOW, PI, SERIES_BELOW, TAU, dsinc_series
-from coplanar.engine.gauss import NODES, WEIGHTS, panel_count
-
-_RULE = tuple(zip(NODES, WEIGHTS, strict=True))
+from coplanar.engine.gauss import panel_count, rule
 
 exp = math.exp
 absolute = abs
-minimum = min
-maximum = max
 
 
 def sincos(x: float) -> tuple[float, float]:
@@ -25,6 +22,21 @@ def sincos(x: float) -> tuple[float, float]:
 def sqrt(x: float) -> float:
     """Square root; zero for x <= 0, NaN for NaN."""
     return math.sqrt(x) if x > 0.0 else 0.0 * x
+
+
+def turn_remainder(x: float) -> float:
+    """The angle less the whole turns nearest to it, in [-pi, pi], without rounding."""
+    return math.remainder(x, TAU)
+
+
+def minimum(x: float, y: float) -> float:
+    """The smaller of two; NaN if one is."""
+    return x if x < y or x != x else y
+
+
+def maximum(x: float, y: float) -> float:
+    """The larger of two; NaN if one is."""
+    return x if x > y or x != x else y
 
 
 def nearest(x: float) -> float:
@@ -55,17 +67,21 @@ def dsinc(x: float) -> float:
     return x * dsinc_series(x * x) if abs(x) < DSINC_BELOW else (cos(x) - sin(x) / x) / x
 
 
-def integrate(integrand: Any, panels: float, lower: float, upper: float, *parameters: float) -> tuple[float, ...]:
-    """Integral of ``integrand(s, *parameters)`` by 16-point Gauss-Legendre panels."""
-    count = panel_count(panels)
-    half = 0.5 * (upper - lower) / count
-    total = [0.0] * len(integrand(lower, *parameters))
-    for panel in range(count):
-        middle = lower + (2 * panel + 1) * half
-        for node, weight in _RULE:
-            for i, f in enumerate(integrand(middle + node * half, *parameters)):
-                total[i] += weight * f
-    return tuple([half * t for t in total])
+def integral(integrand: Any, points: int) -> Any:
+    """The integral of a law that was bound to these primitives, by Gauss-Legendre panels."""
+    nodes, weights = rule(points)
+
+    def integrate(panels: float, lower: float, upper: float, *parameters: float) -> tuple[float, ...]:
+        count = panel_count(panels)
+        half = 0.5 * (upper - lower) / count if panels <= count else math.nan
+        sums = []
+        for k in range(count):
+            middle = lower + (2 * k + 1) * half
+            rows = [integrand(middle + node * half, *parameters) for node in nodes]
+            sums.append([half * sum(map(mul, weights, column)) for column in zip(*rows, strict=True)])
+        return tuple(map(sum, zip(*sums, strict=True)))
+
+    return integrate
 
 
 __all__ = [
@@ -85,7 +101,7 @@ __all__ = [
     "expm1",
     "floor",
     "hypot",
-    "integrate",
+    "integral",
     "log",
     "log1p",
     "maximum",
@@ -98,5 +114,6 @@ __all__ = [
     "sqrt",
     "tan",
     "tanh",
+    "turn_remainder",
     "where",
 ]

@@ -7,7 +7,7 @@ Sources: Thrun, Burgard, Fox 2005, Probabilistic Robotics, sec. 5.3; Sola, Deray
 Bertolazzi, Frego 2015, G1 fitting with clothoids, sec. 2 (Fresnel integrals).
 """
 
-from coplanar.engine import absolute, hypot, integrate, maximum, sinc, sincos, where
+from coplanar.engine import Integral, absolute, hypot, maximum, sinc, sincos, where
 from coplanar.laws.se2 import exp_jacobian, rotate
 
 PANEL_PHASE = 6.0  # [rad] turned within one panel; 16 points then leave out less than 2e-20 of the path's length
@@ -60,6 +60,9 @@ def drift(u, v, omega, a, alpha):
     return -lag * s, lag * c
 
 
+swept = Integral(drift)
+
+
 def segment(x, y, theta, v, omega, a, alpha, dt):
     """Pose p + int_0^dt (v + a s) (cos, sin)(theta + omega s + alpha s^2/2) ds, taken about the middle, s = dt/2 + u.
 
@@ -70,7 +73,7 @@ def segment(x, y, theta, v, omega, a, alpha, dt):
     middle_v, middle_omega = velocities(v, omega, a, alpha, half)
     fastest = maximum(absolute(omega), absolute(omega + alpha * dt))
     panels = fastest * absolute(dt) / PANEL_PHASE
-    lag, left = integrate(drift, panels, -half, half, middle_v, middle_omega, a, alpha)
+    lag, left = swept(panels, -half, half, middle_v, middle_omega, a, alpha)
     dx, dy = rotate(theta + (omega + 0.5 * alpha * half) * half, middle_v * dt + lag, left)
     return x + dx, y + dy, theta + middle_omega * dt
 
@@ -83,6 +86,9 @@ def drift_moments(u, v, omega, a, alpha, half):
     return c, s, time * c, time * s, lever * c, lever * s, time * lever * c, time * lever * s
 
 
+moments = Integral(drift_moments)
+
+
 def segment_jacobian(theta, v, omega, a, alpha, dt):
     """Derivatives of a segment's end (x, y) by v, omega, a, alpha and theta, pair by pair; then of its end heading.
 
@@ -93,9 +99,7 @@ def segment_jacobian(theta, v, omega, a, alpha, dt):
     middle_v, middle_omega = velocities(v, omega, a, alpha, half)
     fastest = maximum(absolute(omega), absolute(omega + alpha * dt))
     panels = fastest * absolute(dt) / PANEL_PHASE
-    c0, s0, c1, s1, c2, s2, c3, s3 = integrate(
-        drift_moments, panels, -half, half, middle_v, middle_omega, a, alpha, half
-    )
+    c0, s0, c1, s1, c2, s2, c3, s3 = moments(panels, -half, half, middle_v, middle_omega, a, alpha, half)
     middle = theta + (omega + 0.5 * alpha * half) * half
     xv, yv = rotate(middle, c0, s0)
     xa, ya = rotate(middle, c1, s1)

@@ -1,0 +1,174 @@
+"""A chain of links: what it is made of, and where it is."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import KW_ONLY, dataclass, field
+from typing import Any
+
+import numpy as np
+
+from coplanar import checks
+from coplanar.arms import geometry
+from coplanar.arms.posture import Posture, column_rates, columns
+from coplanar.checks import ArrayLike
+from coplanar.engine import stack
+from coplanar.se2 import Pose
+from coplanar.se2.triple import matrix_of
+
+TASKS = ("pose", "position")
+
+
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """A chain of n links: phi_i = phi_(i-1) + q_i + bend_i, P_i = P_(i-1) + l_i [cos phi_i, sin phi_i].
+
+    ``Arm`` says what each field is, and adds what is solved.
+
+    Raises:
+        InvalidShape: If the numbers of links, joints, limits and bends differ, or base or tool is a batch.
+        InvalidValue: If a length is not positive, a number not finite, or limits are in the wrong order.
+        UnknownName: If a joint is neither R nor P, or the convention of the angles is unknown.
+
+    Example:
+        >>> Chain((1.0, 0.5)).forward([0.0, 0.0])
+        Pose(x=1.5, y=0.0, theta=0.0)
+    """
+
+    links: Any
+    _: KW_ONLY
+    joints: Any = None
+    angles: str = "relative"
+    base: Pose = field(default_factory=Pose)
+    tool: Pose = field(default_factory=Pose)
+    limits: Any = None
+    bends: Any = None
+
+    def __post_init__(self) -> None:
+        n = np.size(self.links)
+        joints = geometry.joint_letters(self.joints, n)
+        checked = {
+            "joints": joints,
+            "links": geometry.link_lengths(self.links, joints),
+            "angles": checks.choice("angles", self.angles, geometry.CONVENTIONS),
+            "limits": geometry.joint_limits(self.limits, n),
+            "bends": geometry.fixed_bends(self.bends, n),
+        }
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
+        for name in ("base", "tool"):
+            geometry.single_pose(name, getattr(self, name))
+
+    @property
+    def n(self) -> int:
+        """How many joints there are."""
+        return len(self.links)
+
+    @property
+    def lower(self) -> np.ndarray:
+        """Lower joint limits, -inf where there is none, shape (n,)."""
+        return np.array([-math.inf] * self.n if self.limits is None else [low for low, _ in self.limits])
+
+    @property
+    def upper(self) -> np.ndarray:
+        """Upper joint limits, inf where there is none, shape (n,)."""
+        return np.array([math.inf] * self.n if self.limits is None else [high for _, high in self.limits])
+
+    def forward(self, q: ArrayLike) -> Pose:
+        """Pose of the tool in the world.
+
+        Args:
+            q: Joint variables [rad, m], shape (..., n).
+
+        Raises:
+            InvalidShape: If the last axis is not n long.
+            InvalidValue: If an entry is not finite.
+
+        Example:
+            >>> from math import pi
+            >>> tool = Chain((1.0, 1.0)).forward([0.0, pi / 2])
+            >>> tool.as_array().round(12).tolist()
+            [1.0, 1.0, 1.570796326795]
+        """
+        posture = Posture.of(self, self.checked_joints("q", q))
+        return Pose._of(*posture.tip, posture.angles[-1] + self.tool.theta)
+
+    def points(self, q: ArrayLike) -> np.ndarray:
+        """The base, the end of every link, and the tool where it stands off the last link's end.
+
+        Args:
+            q: Joint variables, shape (..., n).
+
+        Returns:
+            World coordinates, shape (..., n + 1, 2); (..., n + 2, 2) with a tool off the end [m].
+
+        Example:
+            >>> Chain((1.0, 0.5)).points([0.0, 0.0]).tolist()
+            [[0.0, 0.0], [1.0, 0.0], [1.5, 0.0]]
+        """
+        posture = Posture.of(self, self.checked_joints("q", q))
+        off = (self.tool.x, self.tool.y) != (0.0, 0.0)
+        corners = [*posture.points, posture.tip] if off else posture.points
+        xs, ys = (stack(part) for part in zip(*corners, strict=True))
+        points: np.ndarray = stack((xs, ys))
+        return points
+
+    def jacobian(self, q: ArrayLike, *, task: str = "pose") -> np.ndarray:
+        """J with [xdot, ydot, thetadot] = J q_rate, of the tool in the world.
+
+        Args:
+            q: Joint variables, shape (..., n).
+            task: "pose" for three rows, "position" for the first two.
+
+        Returns:
+            Shape (..., 3, n) or (..., 2, n) [m/rad or 1; the last row rad/rad or 0].
+
+        Raises:
+            UnknownName: If the task is neither.
+
+        Example:
+            >>> Chain((1.0, 0.5)).jacobian([0.0, 0.0]).tolist()
+            [[0.0, 0.0], [1.5, 0.5], [1.0, 1.0]]
+        """
+        return _matrix(columns(self, Posture.of(self, self.checked_joints("q", q))), task)
+
+    def jacobian_dot(self, q: ArrayLike, q_rate: ArrayLike, *, task: str = "pose") -> np.ndarray:
+        """dJ/dt along q_rate, so that the tool's acceleration is J q_acceleration + Jdot q_rate.
+
+        Args:
+            q: Joint variables, shape (..., n).
+            q_rate: Joint rates [rad/s, m/s], shape (..., n).
+            task: "pose" or "position".
+
+        Returns:
+            Shape (..., 3, n) or (..., 2, n).
+
+        Example:
+            >>> Chain((1.0, 0.5)).jacobian_dot([0.0, 0.0], [1.0, 0.0], task="position").tolist()
+            [[-1.5, -0.5], [0.0, 0.0]]
+        """
+        at, rates = self.checked_joints("q", q), self.checked_joints("q_rate", q_rate)
+        checks.broadcast(q=at, q_rate=rates)
+        return _matrix(column_rates(self, Posture.of(self, at), rates), task)
+
+    def is_within_limits(self, q: ArrayLike, *, tolerance: float = 1e-12) -> Any:
+        """Whether every joint is inside its limits, to a tolerance [rad, m]: bool, or an array of the leading shape.
+
+        Example:
+            >>> Chain((1.0, 1.0), limits=[(-1.0, 1.0), None]).is_within_limits([[0.5, 9.0], [1.5, 0.0]]).tolist()
+            [True, False]
+        """
+        joints = self.checked_joints("q", q)
+        inside = ((joints >= self.lower - tolerance) & (joints <= self.upper + tolerance)).all(axis=-1)
+        return bool(inside) if np.ndim(inside) == 0 else inside
+
+    def checked_joints(self, name: str, q: ArrayLike) -> Any:
+        """One finite value for every joint, shape (..., n); ``name`` is what an error calls it."""
+        return checks.vector(name, q, self.n, remedy=f"give one value for each of the {self.n} joints")
+
+
+def _matrix(table: list[tuple[Any, Any, float]], task: str) -> np.ndarray:
+    """The Jacobian from its columns."""
+    checks.choice("task", task, TASKS)
+    rows = list(zip(*table, strict=True))
+    return matrix_of(*(rows if task == "pose" else rows[:2]))

@@ -1,0 +1,147 @@
+"""Serial arms in the plane: links, Jacobian columns, the two-link inverse, whole turns, rates and torques.
+
+Angles are counterclockwise from the x axis unless a law says "relative"; every length is positive. The two-link
+inverse works on the half angle, tan^2(q2/2) = (L^2 - r^2)/(r^2 - D^2) with L = l1 + l2, D = l1 - l2, in factored
+form: next to the base of an equal-link arm the textbook cosine (r^2 - l1^2 - l2^2)/(2 l1 l2) leaves 1e-8 of the
+links' length in the tip, the factored form a rounding.
+
+Sources: Lynch and Park 2017, Modern Robotics, ch. 4-6; Siciliano et al. 2009, Robotics, sec. 2.12 and 3.1-3.5;
+Nakamura and Hanafusa 1986 (damped rates).
+"""
+
+from coplanar.engine import PI, TAU, absolute, atan2, floor, hypot, maximum, nearest, sincos, sqrt, where
+from coplanar.laws.se2 import wrap
+
+
+def link(x, y, angle, length):
+    """Q = P + l [cos phi, sin phi]."""
+    s, c = sincos(angle)
+    return x + length * c, y + length * s
+
+
+def link_velocity(vx, vy, angle, rate, length, length_rate):
+    """Qdot = Pdot + l phidot [-sin phi, cos phi] + ldot [cos phi, sin phi]."""
+    s, c = sincos(angle)
+    return vx + length_rate * c - length * rate * s, vy + length_rate * s + length * rate * c
+
+
+def two_link(q1, q2, l1, l2):
+    """Q = l1 [cos q1, sin q1] + l2 [cos(q1 + q2), sin(q1 + q2)], q2 relative to the first link."""
+    x, y = link(0.0, 0.0, q1, l1)
+    return link(x, y, q1 + q2, l2)
+
+
+def revolute_column(px, py, ex, ey):
+    """Lever z x (E - P): how a point E moves for a radian of a joint at P; of velocities, the rate of that column."""
+    return py - ey, ex - px
+
+
+def prismatic_column(angle):
+    """[cos phi, sin phi]: how the tip moves for each metre that a link along phi extends."""
+    s, c = sincos(angle)
+    return c, s
+
+
+def prismatic_column_rate(angle, rate):
+    """d/dt [cos phi, sin phi] = phidot [-sin phi, cos phi]."""
+    s, c = sincos(angle)
+    return -rate * s, rate * c
+
+
+def elbow_sides(r, l1, l2):
+    """Sides of a right triangle with the angle |q2|/2: sqrt((L - r)(L + r)) opposite, sqrt((r - D)(r + D)) adjacent.
+
+    L = l1 + l2 and D = l1 - l2. Beyond the reach the first is 0, inside the hole the second: q2 is 0 or pi there.
+    """
+    outer, inner = l1 + l2, l1 - l2
+    return sqrt((outer - r) * (outer + r)), sqrt((r - inner) * (r + inner))
+
+
+def two_link_inverse(x, y, l1, l2, elbow):
+    """Joints (q1, q2) with the tip at (x, y), q2 relative; elbow = +1 or -1 is the sign of sin q2.
+
+    q2 = 2 elbow atan2(a, b), q1 = atan2(k1 y - k2 x, k1 x + k2 y) with k1 = r^2 + l1^2 - l2^2 and k2 = elbow a b,
+    which are 2 l1 times l1 + l2 cos q2 and l2 sin q2. Out of reach: the arm points at the target, stretched or
+    folded. On the base q1 is free, and 0.
+    """
+    r = hypot(x, y)
+    a, b = elbow_sides(r, l1, l2)
+    k1 = r * r + (l1 - l2) * (l1 + l2)
+    k2 = elbow * a * b
+    sine, cosine = k1 * y - k2 * x, k1 * x + k2 * y
+    free = (sine == 0.0) & (cosine == 0.0)
+    return atan2(sine, where(free, 1.0, cosine)), 2.0 * elbow * atan2(a, b)
+
+
+def elbow_sine(x, y, l1, l2):
+    """|sin q2| = a b/(2 l1 l2) of the two-link inverse: 0 where its branches meet."""
+    a, b = elbow_sides(hypot(x, y), l1, l2)
+    return a * b / (2.0 * l1 * l2)
+
+
+def two_link_rates(q1, q2, l1, l2, vx, vy):
+    """Joint rates for a tip velocity: [c12 vx + s12 vy, -(x vx + y vy)/l2]/(l1 sin q2), x and y the tip."""
+    x, y = two_link(q1, q2, l1, l2)
+    s12, c12 = sincos(q1 + q2)
+    s2, _ = sincos(q2)
+    return (c12 * vx + s12 * vy) / (l1 * s2), -(x * vx + y * vy) / (l1 * l2 * s2)
+
+
+def wrist(x, y, angle, along, across):
+    """Where the last joint is: the tip less R(phi) (along, across)."""
+    s, c = sincos(angle)
+    return x - (c * along - s * across), y - (s * along + c * across)
+
+
+def ring_gap(x, y, inner, outer):
+    """Distance from (x, y) to the ring inner <= r <= outer about the origin; 0 on it."""
+    r = hypot(x, y)
+    return maximum(maximum(r - outer, inner - r), 0.0 * r)
+
+
+def ring_nearest(x, y, inner, outer):
+    """The point of the ring inner <= r <= outer nearest to (x, y); on the x axis for the origin."""
+    r = hypot(x, y)
+    apart = r > 0.0
+    reach = where(r > outer, outer, where(r < inner, inner, r))
+    scale = reach / where(apart, r, 1.0)
+    return where(apart, x * scale, reach), y * scale
+
+
+def turn_near(angle, near):
+    """The angle + 2 pi k with the k that comes nearest to ``near``."""
+    return angle + TAU * nearest((near - angle) / TAU)
+
+
+def turn_within(angle, near, lower, upper):
+    """The angle + 2 pi k inside [lower, upper] and nearest to ``near``; where no k fits, the last one below upper."""
+    least = -floor((angle - lower) / TAU)
+    most = floor((upper - angle) / TAU)
+    wanted = nearest((near - angle) / TAU)
+    above = where(wanted < least, least, wanted)
+    return angle + TAU * where(above > most, most, above)
+
+
+def turn_onto(angle, near, lower, upper):
+    """Of [lower, upper], what is nearest to ``angle`` around the circle: a turn of it inside, or the nearer end."""
+    inside = turn_within(angle, near, lower, upper)
+    low, high = absolute(wrap(angle - lower)), absolute(wrap(angle - upper))
+    end = where(low <= high, lower, upper)
+    return where((inside < lower) | (inside > upper), end, inside)
+
+
+def damped_gain(sigma, damping):
+    """sigma/(sigma^2 + lambda^2): what damped least squares puts for 1/sigma; 0 for both 0."""
+    bottom = sigma * sigma + damping * damping
+    return where(bottom > 0.0, sigma, 0.0) / where(bottom > 0.0, bottom, 1.0)
+
+
+def torque(jx, jy, jt, fx, fy, moment):
+    """Joint torque tau = J^T f: one joint's entry, from its column of the Jacobian and the wrench on the tool."""
+    return jx * fx + jy * fy + jt * moment
+
+
+def axis_angle(ax, ay):
+    """Direction of an undirected axis, in (-pi/2, pi/2]."""
+    angle = atan2(ay, ax)
+    return where(angle > 0.5 * PI, angle - PI, where(angle <= -0.5 * PI, angle + PI, angle))

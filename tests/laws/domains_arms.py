@@ -1,0 +1,64 @@
+"""Where the laws of arms are defined: positive lengths, ordered limits, elbows of one sign or the other."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from coplanar.laws import arms
+
+
+def _lengths(*columns):
+    """Lengths between 0.1 and 3.1."""
+    return [0.1 + np.abs(c) for c in columns]
+
+
+def _two_links(columns):
+    """Tips that two links reach, well away from where their branches meet: there the answer is ill-conditioned."""
+    x, y, l1, l2, *rest = columns
+    l1, l2 = _lengths(l1, l2)
+    part = 0.1 + 0.8 * np.abs(np.sin(x))
+    r = np.sqrt((l1 - l2) ** 2 * (1.0 - part) + (l1 + l2) ** 2 * part)
+    return [r * np.cos(y), r * np.sin(y), l1, l2, *[np.where(e < 0.0, -1.0, 1.0) for e in rest]]
+
+
+def _sides(columns):
+    r, l1, l2 = columns
+    x, _, l1, l2 = _two_links([r, 0.0 * r, l1, l2])
+    return [x, l1, l2]
+
+
+def _rates(columns):
+    q1, q2, l1, l2, *velocity = columns
+    return [q1, np.where(q2 < 0.0, -1.0, 1.0) * (0.5 + 2.0 * np.abs(np.sin(q2))), *_lengths(l1, l2), *velocity]
+
+
+def _rings(columns):
+    x, y, inner, width = columns
+    inner, width = _lengths(inner, width)
+    return [x, y, inner, inner + width]
+
+
+def _off_the_jumps(columns):
+    """Angles whose whole turns are not a matter of the last digit."""
+    angle, near, *limits = columns
+    return [np.round(angle, 1) + 0.01, np.round(near, 1), *_ordered(limits)]
+
+
+def _ordered(limits):
+    if not limits:
+        return []
+    lower, width = limits
+    return [np.round(lower, 1), np.round(lower, 1) + 0.5 + np.abs(np.round(width, 1))]
+
+
+DOMAIN = {
+    arms.elbow_sides: _sides,
+    arms.elbow_sine: _two_links,
+    arms.ring_gap: _rings,
+    arms.ring_nearest: _rings,
+    arms.turn_near: _off_the_jumps,
+    arms.turn_onto: _off_the_jumps,
+    arms.turn_within: _off_the_jumps,
+    arms.two_link_inverse: _two_links,
+    arms.two_link_rates: _rates,
+}
