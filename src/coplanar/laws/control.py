@@ -219,14 +219,42 @@ def polar_smooth(rho, alpha, beta, k_rho, k_alpha, k_beta):
     return k_rho * rho * forward, k_alpha * alpha + k_rho * forward * sinc(alpha) * (alpha - k_beta * beta)
 
 
-def polar_linear_loop(k_rho, k_alpha, k_beta):
-    """Near the goal (alpha, beta) obey s^2 + (k_alpha - k_rho) s - k_rho k_beta.  [Siegwart 2011, eq. 3.57]"""
-    return k_alpha - k_rho, -k_rho * k_beta
+def polar_linear_pull(k_rho, k_alpha, k_beta):
+    """omega = k_alpha alpha + k_beta beta already: (k_alpha, k_beta)."""
+    nothing = 0.0 * k_rho
+    return k_alpha + nothing, k_beta + nothing
 
 
-def polar_smooth_loop(k_rho, k_alpha, k_beta):
-    """Near the goal (alpha, beta) obey s^2 + k_alpha s + k_rho^2 k_beta."""
-    return k_alpha, k_rho * k_rho * k_beta
+def polar_smooth_pull(k_rho, k_alpha, k_beta):
+    """omega = (k + g) alpha - g h beta near the goal, of ``polar_smooth``."""
+    return k_alpha + k_rho, -k_rho * k_beta
+
+
+def polar_rates(k_rho, on_alpha, on_beta):
+    """Damping and stiffness of s^2 + (on_alpha - k_rho) s - k_rho on_beta near the goal.  [Siegwart 2011, eq. 3.57]
+
+    alphadot = k_rho alpha - omega, betadot = -k_rho alpha, omega = on_alpha alpha + on_beta beta.
+    """
+    return on_alpha - k_rho, -k_rho * on_beta
+
+
+def polar_loop(h, k_rho, on_alpha, on_beta, lead):
+    """Trace and determinant of a step of (alpha, beta) near the goal, for h k_rho < 1.
+
+    The way left shrinks by 1 - f, f = h k_rho, and the direction to the goal turns as alpha/(1 - f); ``lead`` as in
+    ``lateral_polynomial``.
+    """
+    f = h * k_rho
+    q = 1.0 / where(f < 1.0, 1.0 - f, 1.0)
+    m = 1.0 + lead * f * q
+    trace = 1.0 + q - m * h * on_alpha + (m - 1.0) * h * on_beta
+    return trace, q - m * h * on_alpha + (m - q) * h * on_beta
+
+
+def polar_margin(h, k_rho, on_alpha, on_beta, lead):
+    """Least of 1 - f, 1 - |det| and 1 + det - |trace|: above 0 where both roots are inside the unit circle."""
+    trace, det = polar_loop(h, k_rho, on_alpha, on_beta, lead)
+    return minimum(1.0 - h * k_rho, minimum(1.0 - absolute(det), 1.0 + det - absolute(trace)))
 
 
 def polar_strong(k_rho, k_alpha, k_beta):
