@@ -11,13 +11,8 @@ Robots, sec. 3.6.2; Aicardi, Casalino, Bicchi, Balestrino 1995, Closed loop stee
 """
 
 from coplanar.engine import PI, absolute, atan2, copysign, cos, hypot, maximum, minimum, sinc, sincos, sqrt, where
-from coplanar.laws.se2 import act, rotate, step, wrap
-
-
-def unicycle_rates(theta, v, omega):
-    """(xdot, ydot, thetadot) = (v cos theta, v sin theta, omega)."""
-    s, c = sincos(theta)
-    return v * c, v * s, omega
+from coplanar.laws.motion import arc
+from coplanar.laws.se2 import act, rotate, wrap
 
 
 def unicycle_step(x, y, theta, v, omega, h, at_start, at_middle, at_end):
@@ -33,11 +28,6 @@ def unicycle_step(x, y, theta, v, omega, h, at_start, at_middle, at_end):
     forward = at_start * c0 + at_middle * c1 + at_end * c2
     sideways = at_start * s0 + at_middle * s1 + at_end * s2
     return x + way * forward, y + way * sideways, theta + turn
-
-
-def unicycle_arc(x, y, theta, v, omega, h):
-    """The arc of a held command: T exp(v h, 0, omega h)."""
-    return step(x, y, theta, v * h, 0.0, omega * h)
 
 
 def center_under(point_x, point_y, theta, px, py):
@@ -108,11 +98,11 @@ def tracking_step(
 
 
 def tracking_arc(x, y, theta, v, omega, last_x, last_y, sum_x, sum_y, rx, ry, fx, fy, h, px, py, kp, kd, ki):
-    """``track_point``, then ``unicycle_arc``: one turn of the closed loop."""
+    """``track_point``, then the arc of the held command: one turn of the closed loop."""
     v, omega, ex, ey, sum_x, sum_y = track_point(
         x, y, theta, rx, ry, fx, fy, last_x, last_y, sum_x, sum_y, px, py, kp, kd, ki, h
     )
-    x, y, theta = unicycle_arc(x, y, theta, v, omega, h)
+    x, y, theta = arc(x, y, theta, v, omega, h)
     return x, y, theta, v, omega, ex, ey, sum_x, sum_y
 
 
