@@ -1,6 +1,6 @@
 """Robots that live in a plane: frames, arms, wheels, motion, projectiles.
 
-SI units and radians everywhere; leading axes broadcast as in NumPy. ``T_a_b`` takes coordinates in b to coordinates in a.
+SI units and radians everywhere; leading axes broadcast as in NumPy. ``T_a_b`` takes coordinates in b to those in a.
 """
 
 from __future__ import annotations
