@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from coplanar.control import PointTracker, PolarController, Unicycle
     from coplanar.curves import Astroid, Circle, Ellipse, FreeCurve, Lemniscate, Line, Polyline, Spline
     from coplanar.errors import CoplanarError, InvalidInput, NoSolution
+    from coplanar.flight import Projectile
     from coplanar.frames import FrameTree, coordinates, from_coordinates
     from coplanar.integrators import integrate_ode
     from coplanar.motion import (
@@ -55,6 +56,7 @@ _HOMES = {
         "InvalidInput",
         "NoSolution",
     ),
+    "flight": ("Projectile",),
     "frames": (
         "FrameTree",
         "coordinates",
@@ -67,6 +69,7 @@ _HOMES = {
         "Odometry",
         "OdometryNoise",
         "Program",
+        "Projectile",
         "Ramp",
         "Segment",
         "Trapezoid",
@@ -114,6 +117,7 @@ __all__ = [
     "Polyline",
     "Pose",
     "Program",
+    "Projectile",
     "Ramp",
     "RollingWheel",
     "Run",
