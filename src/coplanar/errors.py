@@ -81,12 +81,13 @@ class MissingExtra(CoplanarError, ImportError):
 
     Attributes:
         package: What is missing.
-        extra: The extra that brings it.
+        extra: The extra that brings it; empty where none does.
     """
 
-    def __init__(self, package: str, extra: str) -> None:
+    def __init__(self, package: str, extra: str = "") -> None:
         self.package, self.extra = package, extra
-        super().__init__(f"{package} is not installed: run  pip install 'coplanar[{extra}]'")
+        wanted = f"'coplanar[{extra}]'" if extra else package
+        super().__init__(f"{package} is not installed: run  pip install {wanted}")
 
 
 def _short(value: object) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from types import MappingProxyType
 
 import numpy as np
 
@@ -69,7 +68,7 @@ class FrameTree:
             checks.choice("parent", frame.parent, known)
             by_name[frame.name] = frame
         object.__setattr__(self, "frames", tuple(self.frames))
-        object.__setattr__(self, "_by_name", MappingProxyType(by_name))
+        object.__setattr__(self, "_by_name", by_name)
 
     @property
     def names(self) -> tuple[str, ...]:

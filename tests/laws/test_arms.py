@@ -113,7 +113,8 @@ def test_three_links_reach_the_pose_by_both_branches(lead, arm, seed):
 )
 def test_elbow_is_the_sign_of_the_sine_even_next_to_where_the_branches_meet(l1, l2, turn, exponent, fold, elbow):
     near = 10.0**exponent
-    r = abs(l1 - l2) + near * min(l1, l2) if fold else (l1 + l2) * (1.0 - near)
+    step = near * min(l1, l2)
+    r = abs(l1 - l2) + step if fold else l1 + l2 - step
     x, y = r * np.cos(turn), r * np.sin(turn)
     q1, q2 = evaluator(laws.two_link_inverse)(x, y, l1, l2, float(elbow))
     assert elbow * q2 >= 0.0

@@ -26,7 +26,7 @@ ELBOW_ARM = Arm((1.0, 1.0))
         (lambda: Arm((1.0, 1.0), joints="RX"), UnknownName, "one of P, R"),
         (lambda: Arm((1.0, 1.0), joints="R"), InvalidShape, "1 joints for 2 links"),
         (lambda: Arm((1.0, 1.0), joints=2), InvalidValue, "a word such as"),
-        (lambda: Arm((1.0, 1.0), angles="relativ"), UnknownName, "did you mean 'relative'"),
+        (lambda: Arm((1.0, 1.0), angles="relatives"), UnknownName, "did you mean 'relative'"),
         (lambda: Arm((1.0, 1.0), limits=[(0.0, 1.0)]), InvalidShape, "a pair for every joint"),
         (lambda: Arm((1.0, 1.0), limits=[(1.0, 0.0), None]), InvalidValue, "lower <= upper"),
         (lambda: Arm((1.0, 1.0), limits=[(float("nan"), 0.0), None]), InvalidValue, "not NaN"),
@@ -46,7 +46,7 @@ def test_what_is_no_arm_is_refused(build, error, text):
     [
         (lambda arm: arm.forward([0.0]), InvalidShape, "one value for each of the 2 joints"),
         (lambda arm: arm.forward([0.0, float("nan")]), InvalidValue, "q"),
-        (lambda arm: arm.jacobian([0.0, 0.0], task="positon"), UnknownName, "did you mean 'position'"),
+        (lambda arm: arm.jacobian([0.0, 0.0], task="positions"), UnknownName, "did you mean 'position'"),
         (lambda arm: arm.jacobian_dot(np.zeros((3, 2)), np.zeros((2, 2))), InvalidShape, "broadcast"),
         (lambda arm: arm.torques([0.0, 0.0], [1.0]), InvalidShape, "wrench"),
         (lambda arm: arm.torques([0.0, 0.0], [1.0, np.inf]), InvalidValue, "wrench"),
@@ -155,9 +155,14 @@ def test_on_the_base_an_equal_armed_elbow_folds_and_the_first_joint_keeps_its_pl
     assert answer.q.tolist() == pytest.approx([0.7, np.pi])
     assert "free" in answer.sentence()
     assert ELBOW_ARM.inverse(target).q[0] == 0.0
-    hole = Arm((1.0, 0.8)).inverse(target)
-    assert hole.status is Reach.TOO_CLOSE
-    assert hole.gap == pytest.approx(0.2)
+
+
+def test_next_to_the_base_of_unequal_links_the_hole_is_left_towards_the_target():
+    for target in ((0.0, 0.0), (0.0, 1e-10), (0.0, -1e-10)):
+        hole = Arm((1.0, 0.8)).inverse(target)
+        assert hole.status is Reach.TOO_CLOSE
+        assert hole.gap == pytest.approx(0.2 - np.hypot(*target), abs=1e-15)
+        assert hole.position_error() == pytest.approx(hole.gap, abs=1e-15)
 
 
 def test_next_to_the_base_of_an_equal_armed_elbow_the_tip_is_exact():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import pi
 
 import numpy as np
@@ -39,11 +39,11 @@ class Wheel:
     drive_angle: float
     radius: float
     roller_angle: float | None = None
-    name: str = ""
+    name: str = field(default="", kw_only=True)
 
     def __post_init__(self) -> None:
-        for field in ("x", "y", "drive_angle"):
-            object.__setattr__(self, field, number(field, getattr(self, field)))
+        for entry in ("x", "y", "drive_angle"):
+            object.__setattr__(self, entry, number(entry, getattr(self, entry)))
         object.__setattr__(self, "radius", positive_number("radius", self.radius))
         if self.roller_angle is not None:
             gamma = number("roller_angle", self.roller_angle)

@@ -1,0 +1,180 @@
+"""Plant, controller and reference, step by step."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any, Protocol
+
+import numpy as np
+
+from coplanar import checks
+from coplanar.checks import ArrayLike, Real
+from coplanar.control import METHODS, Controller, Limits, Unicycle
+from coplanar.control.controller import Timed
+from coplanar.errors import InvalidShape, InvalidValue
+from coplanar.run import Run, RunStatus
+from coplanar.se2 import Pose
+from coplanar.simulate.noise import Noise
+
+WHOLE_STEPS = 1e-9  # of a step: a duration this near a whole number of steps is that number
+
+
+class Plant(Protocol):
+    """What is driven: the state after a command held over a step."""
+
+    def advance(self, state: Any, command: Any, step: Real, *, method: str) -> Any:
+        """The state after the step."""
+        ...
+
+
+def simulate(
+    plant: Plant, controller: Controller, reference: Timed | None = None, *, t: ArrayLike | None = None,
+    duration: float | None = None, step: float | None = None, method: str = "euler", limits: Limits | None = None,
+    start: Pose | None = None, noise: Noise | None = None,
+) -> Run:  # fmt: skip
+    """Run a closed loop: measure, compare, command, hold the command over a step.
+
+    Poses, gains, points and goals of any leading shape run as a batch of robots, in one loop over time.
+
+    Args:
+        plant: What is driven, a ``Unicycle``.
+        controller: ``PointTracker`` or ``PolarController``.
+        reference: What it follows in time.
+        t: Increasing times [s]; or give ``duration`` and ``step``.
+        duration: From 0 [s]; the reference's own unless given.
+        step: h [s]; the last step is shorter where the duration is no whole number of steps.
+        method: How the plant is stepped: "euler", "midpoint", "heun", "rk4" or "exact".
+        limits: What the motors allow; the command recorded is the one after them.
+        start: First pose, of any leading shape; the controller's own starting pose unless given.
+        noise: Added to the measured pose and to the driven command.
+
+    Returns:
+        A run with the columns t, x, y, theta, v, omega and the controller's errors. Row 0 is the start with
+        command and error 0; row i + 1 holds the command and the error that led to it. If a state stops being
+        finite the run says DIVERGED; that of one robot ends there.
+
+    Raises:
+        InvalidValue: If the times do not increase, or something that is needed is missing.
+        UnknownName: If the method is not known.
+        InvalidShape: If shapes do not broadcast.
+
+    Example:
+        >>> from coplanar.control import PointTracker, Unicycle
+        >>> from coplanar.curves import Astroid
+        >>> tracker = PointTracker((0.05, 0.0), kp=100.0, kd=0.5, error_against="next")
+        >>> run = simulate(Unicycle(), tracker, Astroid(1.0).over(10.0), step=0.01)
+        >>> len(run), float(run["ex"][1:].max()) < 0.01
+        (1001, True)
+    """
+    checks.choice("method", method, METHODS)
+    times, steps = _times(reference, t, duration, step)
+    first = controller.start(reference, float(times[0])) if start is None else start
+    shape = _shape(first, controller, noise)
+    targets = controller.targets(reference, times, len(shape))
+    state = tuple(np.broadcast_to(part, shape) if shape else float(part) for part in first.parts)
+    bare = limits is None and noise is None and type(plant) is Unicycle
+    roll = getattr(controller, "roll", None) if shape and bare else None
+    if roll:
+        columns = roll(state, targets, steps, method)
+    else:
+        shaken = noise.draw(len(steps), shape) if noise else np.zeros((len(steps), 5) + (1,) * len(shape))
+        each_step = zip(_rows(targets, shape), _rows(shaken.swapaxes(0, 1), shape), steps.tolist(), strict=True)
+        rows = _loop((plant, controller, limits, method), state, each_step)
+        columns = _filled(np.zeros((5 + len(controller.error_names), len(times), *shape)), state, rows)
+    return _run(columns, times, (controller, reference, steps, method, noise))
+
+
+def _filled(table: np.ndarray, state: Any, rows: Iterator[tuple[Real, ...]]) -> np.ndarray:
+    """The table (columns, rows, ...) with its rows, as far as they go."""
+    last = 0
+    for place, value in enumerate(state):
+        table[place, 0] = value
+    for last, row in enumerate(rows, 1):
+        for place, value in enumerate(row):
+            table[place, last] = value
+    return table[:, : last + 1]
+
+
+def _loop(parts: tuple[Any, ...], state: Any, each_step: Any) -> Iterator[tuple[Real, ...]]:
+    """Rows (x, y, theta, v, omega, errors ...) after each step, up to the first that no robot survives."""
+    plant, controller, limits, method = parts
+    memory, command = controller.memory(state), (0.0, 0.0)
+    for target, (nx, ny, ntheta, nv, nomega), h in each_step:
+        x, y, theta = state
+        wanted, error, memory = controller.respond((x + nx, y + ny, theta + ntheta), target, memory, h)
+        command = limits.apply(wanted, command, h) if limits else wanted
+        v, omega = command
+        state = plant.advance(state, (v + nv, omega + nomega), h, method=method)
+        yield (*state, v, omega, *error)
+        if not _any_finite(state[0] + state[1] + state[2]):
+            return
+
+
+def _any_finite(total: Real) -> bool:
+    return math.isfinite(total) if type(total) is float else bool(np.isfinite(total).any())
+
+
+def _times(
+    reference: Any, t: ArrayLike | None, duration: float | None, step: float | None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Times (rows,) and steps (rows - 1,)."""
+    if t is not None:
+        if duration is not None or step is not None:
+            raise InvalidValue("t", "given with duration or step", "either t, or duration and step")
+        times = checks.monotone("t", t)
+        if times[0] > times[-1]:
+            raise InvalidValue("t", t, "increasing times")
+        return times, np.diff(times)
+    duration = getattr(reference, "duration", None) if duration is None else duration
+    if duration is None or step is None:
+        raise InvalidValue("duration, step", (duration, step), "both, or t")
+    first = float(getattr(reference, "start_time", 0.0))
+    length, h = checks.positive("duration", duration), checks.positive("step", step)
+    if np.ndim(length) or np.ndim(h):
+        raise InvalidShape("duration, step", f"shapes {np.shape(length)}, {np.shape(h)}", "one number each")
+    count = max(1, math.ceil(length / h - WHOLE_STEPS))
+    last = length - (count - 1) * h
+    steps = np.full(count, h)
+    steps[-1] = h if abs(last - h) <= WHOLE_STEPS * h else last
+    times = first + h * np.arange(count + 1)
+    times[-1] = first + length
+    return times, steps
+
+
+def _shape(first: Pose, controller: Controller, noise: Noise | None) -> tuple[int, ...]:
+    shapes = {"start": first.shape, "controller": controller.shape, "noise": noise.shape if noise else ()}
+    return checks.broadcast(**{name: np.empty(shape) for name, shape in shapes.items()})
+
+
+def _rows(columns: Any, shape: tuple[int, ...]) -> Iterator[tuple[Any, ...]]:
+    """Step after step of columns (steps, ...), as floats for one robot."""
+    return zip(*(c if shape else np.asarray(c).tolist() for c in columns), strict=True)
+
+
+def _run(columns: Any, times: np.ndarray, made_of: tuple[Any, ...]) -> Run:
+    controller, reference, steps, method, noise = made_of
+    names = ("x", "y", "theta", "v", "omega", *controller.error_names)
+    alive = np.isfinite(columns[0] + columns[1] + columns[2]).reshape(len(columns[0]), -1)
+    rows = len(alive) if alive.any(1).all() else int(alive.any(1).argmin()) + 1
+    for column in columns:
+        column.flags.writeable = False
+    return Run(
+        {"t": times[:rows]} | {name: column[:rows] for name, column in zip(names, columns, strict=True)},
+        "unicycle",
+        status=RunStatus.COMPLETE if alive.all() else RunStatus.DIVERGED,
+        warnings=_warnings(controller, reference, times, steps, method),
+        info={"method": method, "step": float(steps[0]), "seed": noise.seed if noise else None},
+    )
+
+
+def _warnings(
+    controller: Controller, reference: Any, times: np.ndarray, steps: np.ndarray, method: str
+) -> tuple[str, ...]:
+    """What the controller says of its largest step at the reference's highest speed."""
+    speed = 0.0
+    if reference is not None:
+        velocity = reference.velocity(times.reshape(-1, *(1,) * (np.ndim(reference.position(times[0])) - 1)))
+        speed = float(np.hypot(velocity[..., 0], velocity[..., 1]).max())
+    report = controller.stability(float(steps.max()), method=method, speed=speed)
+    return report.warnings if np.all(report.stable) else report.sentences
