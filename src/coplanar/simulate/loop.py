@@ -70,7 +70,7 @@ def simulate(
     checks.choice("method", method, METHODS)
     times, steps = _times(reference, t, duration, step)
     first = controller.start(reference, float(times[0])) if start is None else start
-    shape = _shape(first, controller, noise)
+    shape = _shape(start=first, controller=controller, noise=noise, limits=limits, reference=reference)
     targets = controller.targets(reference, times, len(shape))
     state = tuple(np.broadcast_to(part, shape) if shape else float(part) for part in first.parts)
     bare = limits is None and noise is None and type(plant) is Unicycle
@@ -142,9 +142,11 @@ def _times(
     return times, steps
 
 
-def _shape(first: Pose, controller: Controller, noise: Noise | None) -> tuple[int, ...]:
-    shapes = {"start": first.shape, "controller": controller.shape, "noise": noise.shape if noise else ()}
-    return checks.broadcast(**{name: np.empty(shape) for name, shape in shapes.items()})
+def _shape(*, reference: Any, **parts: Any) -> tuple[int, ...]:
+    """The leading shape of everything that takes part: that of the batch of robots."""
+    shapes = {name: part.shape for name, part in parts.items() if part is not None}
+    shapes["reference"] = () if reference is None else reference.position(0.0).shape[:-1]
+    return checks.broadcast(**{name: np.broadcast_to(0.0, shape) for name, shape in shapes.items()})
 
 
 def _rows(columns: Any, shape: tuple[int, ...]) -> Iterator[tuple[Any, ...]]:
