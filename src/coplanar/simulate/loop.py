@@ -129,10 +129,14 @@ def _times(
     duration = getattr(reference, "duration", None) if duration is None else duration
     if duration is None or step is None:
         raise InvalidValue("duration, step", (duration, step), "both, or t")
-    first = float(getattr(reference, "start_time", 0.0))
     length, h = checks.positive("duration", duration), checks.positive("step", step)
     if np.ndim(length) or np.ndim(h):
         raise InvalidShape("duration, step", f"shapes {np.shape(length)}, {np.shape(h)}", "one number each")
+    return _even(float(getattr(reference, "start_time", 0.0)), length, h)
+
+
+def _even(first: float, length: float, h: float) -> tuple[np.ndarray, np.ndarray]:
+    """Times h apart; the last step is what is left."""
     count = max(1, math.ceil(length / h - WHOLE_STEPS))
     last = length - (count - 1) * h
     steps = np.full(count, h)
