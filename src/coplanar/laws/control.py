@@ -10,7 +10,7 @@ Application of the z-Transform Method.
 """
 
 from coplanar.engine import absolute, copysign, maximum, minimum, sincos, sqrt, where
-from coplanar.laws.motion import arc
+from coplanar.laws.motion import arc, unicycle_rates
 from coplanar.laws.se2 import act, rotate
 
 
