@@ -7,11 +7,23 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import pytest
 
 from coplanar.engine import evaluator
 
 HAS_JAX = importlib.util.find_spec("jax") is not None
-ARRAY_ENGINES = ["text", "compiled"] + (["jax"] if HAS_JAX else [])
+HAS_NUMBA = importlib.util.find_spec("numba") is not None
+NEEDS_JAX = pytest.mark.skipif(not HAS_JAX, reason="JAX is not installed: pip install 'coplanar[jax]'")
+NEEDS_NUMBA = pytest.mark.skipif(not HAS_NUMBA, reason="Numba is not installed: the NumPy text answers every batch")
+
+ARRAY_ENGINES = [
+    "text",
+    pytest.param("compiled", marks=NEEDS_NUMBA),
+    pytest.param("jax", marks=NEEDS_JAX),
+]
+ENGINES = ["floats", *ARRAY_ENGINES]
+
+BATCH_SHAPES = [(), (1,), (3, 1, 2)]
 
 
 def on_floats(law: Callable[..., Any], *args: Any) -> tuple[np.ndarray, ...]:
@@ -24,6 +36,8 @@ def on_floats(law: Callable[..., Any], *args: Any) -> tuple[np.ndarray, ...]:
 
 def on_engine(name: str, law: Callable[..., Any], *args: Any) -> tuple[np.ndarray, ...]:
     """The law on arrays by the named evaluator, as NumPy arrays."""
+    if name == "floats":
+        return on_floats(law, *args)
     if name == "jax":
         import jax
 

@@ -19,6 +19,8 @@ from coplanar.errors import InvalidShape, InvalidValue, UnknownName
 Real = Any  # a float, or an array of any library that follows the array API
 ArrayLike = Any
 
+_FLOATS = frozenset((float, np.float64))
+
 
 def real(name: str, value: ArrayLike, *, remedy: str = "") -> Real:
     """A finite number or array of finite numbers.
@@ -32,19 +34,20 @@ def real(name: str, value: ArrayLike, *, remedy: str = "") -> Real:
         A float for shape (), otherwise a float64 array (the same one where it was float64 already).
 
     Raises:
-        InvalidValue: If something is not a real number, or is NaN or infinite.
+        InvalidValue: If something is not a real number, or is NaN or infinite; truth values, complex numbers, text
+            and masked entries are not real numbers.
 
     Example:
         >>> real("speed", 2), real("speed", [1, 2]).tolist()
         (2.0, [1.0, 2.0])
     """
-    if type(value) is float and math.isfinite(value):
-        return value
+    if type(value) in _FLOATS and math.isfinite(value):
+        return float(value)
     if is_foreign(value):
         return value
-    array = _as_float64(name, value)
+    array = _as_float64(name, value, remedy)
     if not np.isfinite(array).all():
-        raise InvalidValue(name, value, "finite numbers", remedy)
+        raise InvalidValue(name, value, _where("finite numbers", array, np.isfinite(array)), remedy)
     return float(array) if array.ndim == 0 else array
 
 
@@ -59,8 +62,7 @@ def positive(name: str, value: ArrayLike, *, remedy: str = "") -> Real:
         0.1
     """
     checked = real(name, value, remedy=remedy)
-    if not is_foreign(checked) and not np.all(np.greater(checked, 0.0)):
-        raise InvalidValue(name, value, "greater than 0", remedy)
+    _demand(checked > 0.0, name, value, checked, "greater than 0", remedy)
     return checked
 
 
@@ -75,8 +77,7 @@ def not_negative(name: str, value: ArrayLike, *, remedy: str = "") -> Real:
         0.0
     """
     checked = real(name, value, remedy=remedy)
-    if not is_foreign(checked) and not np.all(np.greater_equal(checked, 0.0)):
-        raise InvalidValue(name, value, "0 or more", remedy)
+    _demand(checked >= 0.0, name, value, checked, "0 or more", remedy)
     return checked
 
 
@@ -116,18 +117,15 @@ def monotone(name: str, value: ArrayLike) -> np.ndarray:
         >>> monotone("t", [0, 1, 3]).tolist()
         [0.0, 1.0, 3.0]
     """
-    times = vector(name, value)
+    times = np.asarray(vector(name, value))
     if times.ndim != 1 or times.size < 2:
         raise InvalidShape(name, f"shape {times.shape}", "a vector of two or more times")
-    steps = np.diff(times)
-    wrong = np.flatnonzero(np.sign(steps) != np.sign(steps[0])) if steps[0] else np.array([0])
-    if wrong.size:
-        i = int(wrong[0])
-        raise InvalidValue(
-            name, f"... {times[i]}, {times[i + 1]} ... at index {i + 1}", "a strictly monotone vector",
-            "sort the times and remove repeated ones",
-        )  # fmt: skip
-    return np.asarray(times)
+    onward = np.sign(times[1:] - times[:-1]) * np.sign(times[1] - times[0]) > 0.0
+    if not onward.all():
+        i = int(np.argmin(onward))
+        needed = f"a strictly monotone vector (entries {i} and {i + 1} are {times[i]}, {times[i + 1]})"
+        raise InvalidValue(name, value, needed, "sort the times and remove repeated ones")
+    return times
 
 
 def choice(name: str, value: str, known: Iterable[str]) -> str:
@@ -159,8 +157,18 @@ def broadcast(**values: Real) -> tuple[int, ...]:
     try:
         return np.broadcast_shapes(*(np.shape(v) for v in values.values()))
     except ValueError:
-        given = ", ".join(f"{k}: {np.shape(v)}" for k, v in values.items())
-        raise InvalidShape(", ".join(values), given, "shapes that broadcast as in NumPy") from None
+        shapes = ", ".join(str(np.shape(v)) for v in values.values())
+        raise InvalidShape(", ".join(values), f"shapes {shapes}", "shapes that broadcast as in NumPy") from None
+
+
+def instance(name: str, value: object, kind: type, *, remedy: str = "") -> None:
+    """Refuse what is not of this kind.
+
+    Raises:
+        InvalidValue: Naming the kind that was needed.
+    """
+    if not isinstance(value, kind):
+        raise InvalidValue(name, value, f"a {kind.__name__}", remedy)
 
 
 def frozen(value: Real) -> Real:
@@ -170,17 +178,42 @@ def frozen(value: Real) -> Real:
         >>> frozen(np.zeros(2)).flags.writeable
         False
     """
-    if isinstance(value, np.ndarray) and value.flags.writeable:
+    if isinstance(value, np.ndarray) and not _is_immutable(value):
         value = value.copy()
         value.flags.writeable = False
     return value
 
 
-def _as_float64(name: str, value: ArrayLike) -> np.ndarray:
+def _is_immutable(array: np.ndarray) -> bool:
+    """Read-only itself, and not a view of memory that somebody else may write to."""
+    owner: Any = array
+    while isinstance(owner, np.ndarray):
+        if owner.flags.writeable:
+            return False
+        owner = owner.base
+    return owner is None or isinstance(owner, bytes)
+
+
+def _demand(fine: Any, name: str, value: Any, checked: Real, needed: str, remedy: str) -> None:
+    if fine is True or is_foreign(checked):
+        return
+    if not np.all(fine):
+        raise InvalidValue(name, value, _where(needed, checked, fine), remedy)
+
+
+def _where(needed: str, checked: Real, fine: Any) -> str:
+    """What was needed, and for an array the first entry that is not so."""
+    if not np.ndim(checked):
+        return needed
+    index = tuple(int(i) for i in np.argwhere(~fine)[0])
+    return f"{needed} (entry {index[0] if len(index) == 1 else index} is {checked[index]})"
+
+
+def _as_float64(name: str, value: ArrayLike, remedy: str) -> np.ndarray:
     try:
         array = np.asarray(value)
-        if array.dtype.kind not in "biuf":
+        if array.dtype.kind not in "iuf" or np.ma.is_masked(value):
             raise TypeError
     except (TypeError, ValueError):
-        raise InvalidValue(name, value, "real numbers (an equal count in every row)") from None
+        raise InvalidValue(name, value, "real numbers (an equal count in every row)", remedy) from None
     return array if array.dtype == np.float64 else array.astype(np.float64)

@@ -15,11 +15,15 @@ Only misuse raises, and every message says what was given, what was needed, what
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from typing import Any
 
 
 class CoplanarError(Exception):
-    """Root of every error that Coplanar raises on purpose."""
+    """Root of every error that Coplanar raises on purpose; it travels between processes with all it holds."""
+
+    def __reduce__(self) -> tuple[Callable[..., CoplanarError], tuple[Any, ...]]:
+        return _restored, (type(self), self.args, self.__dict__)
 
 
 class InvalidInput(CoplanarError, ValueError):
@@ -33,12 +37,18 @@ class InvalidInput(CoplanarError, ValueError):
 
     def __init__(self, name: str, given: object, needed: str, remedy: str = "") -> None:
         self.name, self.given, self.needed, self.remedy = name, given, needed, remedy
-        text = f"{name} = {_short(given)}: needed {needed}"
+        text = f"{self._what_was_given()}: needed {needed}"
         super().__init__(f"{text}; {remedy}" if remedy else text)
+
+    def _what_was_given(self) -> str:
+        return f"{self.name} = {_short(self.given)}"
 
 
 class InvalidShape(InvalidInput):
-    """An array of the wrong shape."""
+    """An array of the wrong shape; ``given`` is the shape in words."""
+
+    def _what_was_given(self) -> str:
+        return f"{self.name} with {self.given}"
 
 
 class InvalidValue(InvalidInput):
@@ -67,13 +77,25 @@ class NoSolution(CoplanarError):
 
 
 class MissingExtra(CoplanarError, ImportError):
-    """An optional dependency is absent; the message holds the command that installs it."""
+    """An optional dependency is absent; the message holds the command that installs it.
+
+    Attributes:
+        package: What is missing.
+        extra: The extra that brings it; empty where none does.
+    """
 
     def __init__(self, package: str, extra: str = "") -> None:
+        self.package, self.extra = package, extra
         wanted = f"'coplanar[{extra}]'" if extra else package
         super().__init__(f"{package} is not installed: run  pip install {wanted}")
 
 
 def _short(value: object) -> str:
-    text = repr(value)
+    text = " ".join(repr(value).split())
     return text if len(text) <= 80 else text[:77] + "..."
+
+
+def _restored(kind: type[CoplanarError], args: tuple[Any, ...], state: dict[str, Any]) -> CoplanarError:
+    error = kind.__new__(kind, *args)
+    error.__dict__.update(state)
+    return error

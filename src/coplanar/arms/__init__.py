@@ -1,4 +1,4 @@
-"""Serial arms in the plane: forward, inverse and differential kinematics, statics, workspace.
+"""Serial arms in the plane: forward, inverse and differential kinematics, joint torques, workspace.
 
 ``Arm`` is links of given lengths on revolute or prismatic joints. Joints are ``(..., n)``, points ``(..., 2)``; the
 convention of the angles, relative or absolute, is a word in the constructor.

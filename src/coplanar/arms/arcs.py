@@ -71,7 +71,7 @@ class Arc:
         angles = sorted((a - self.start) % math.tau for other in others for a in self._meets(other))
         stops = [0.0]
         for angle in angles:
-            if MERGE < angle - stops[-1] and angle < self.sweep - MERGE:
+            if angle - stops[-1] > MERGE and angle < self.sweep - MERGE:
                 stops.append(angle)
         pieces = itertools.pairwise([*stops, self.sweep])
         return [Arc(self.centre, self.radius, self.start + a, b - a) for a, b in pieces if b > a]

@@ -117,14 +117,15 @@ def _closed(chain: Chain, goal: Goal, iterations: int) -> Answer:
     triangle = closed.triangle_of(chain, goal.points, goal.headings)
     near = np.zeros((len(goal.points), chain.n)) if goal.near is None else goal.near
     near = np.clip(near, chain.lower, chain.upper)
-    free = triangle.radius <= goal.tolerance
+    gap = np.asarray(triangle.gap())
+    on_axis = (triangle.radius <= goal.tolerance) & (gap <= goal.tolerance)
+    free = on_axis | (triangle.radius == 0.0)
     branches, allowed = closed.branches_of(chain, triangle, near, free)
     pick = _nearest_branch(goal, branches, allowed)
     q = np.take_along_axis(branches, pick[:, None, None], axis=1)[:, 0]
-    gap = np.asarray(triangle.gap())
     code = np.where(triangle.radius > triangle.l1 + triangle.l2, _CODE[Reach.TOO_FAR], _CODE[Reach.TOO_CLOSE])
     code[gap <= goal.tolerance] = _CODE[Reach.REACHED]
-    code[free & (gap <= goal.tolerance)] = _CODE[Reach.FIRST_JOINT_FREE]
+    code[on_axis] = _CODE[Reach.FIRST_JOINT_FREE]
     answer = Answer(q, branches, allowed, 1 - 2 * pick, code, gap, np.zeros(len(q), dtype=int), Report())
     outside = np.flatnonzero(~allowed.any(axis=1))
     if outside.size:

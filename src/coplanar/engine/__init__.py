@@ -29,6 +29,7 @@ from coplanar.engine.arrays import (
     sqrt,
     tan,
     tanh,
+    turn_remainder,
     where,
 )
 from coplanar.engine.evaluator import Evaluator, can_compile, evaluator
@@ -72,5 +73,6 @@ __all__ = [
     "stack",
     "tan",
     "tanh",
+    "turn_remainder",
     "where",
 ]

@@ -16,7 +16,7 @@ from coplanar.engine import arrays
 PRIMITIVES: frozenset[str] = frozenset(
     name
     for name, value in vars(arrays).items()
-    if isinstance(value, FunctionType) and name not in ("panel_count", "rule")
+    if isinstance(value, FunctionType) and not name.startswith("_") and name not in ("panel_count", "rule")
 )
 
 
@@ -72,4 +72,8 @@ def _rebound(law: Any, primitives: Mapping[str, Any], wrap: Any, done: dict[Any,
 def array_primitives(namespace: types.ModuleType) -> dict[str, Any]:
     """The array text of every primitive, bound to another array library's namespace."""
     names = dict(vars(arrays), xp=namespace)
-    return {name: FunctionType(getattr(arrays, name).__code__, names, name) for name in PRIMITIVES}
+    primitives: dict[str, Any] = {
+        name: FunctionType(getattr(arrays, name).__code__, names, name) for name in PRIMITIVES
+    }
+    primitives["integral"] = lambda integrand, points: arrays.Integral(integrand, points, primitives["where"])
+    return primitives

@@ -9,7 +9,7 @@ JAX, PyTorch, CuPy arrays     the law's own code over their namespace
 from __future__ import annotations
 
 import functools
-import importlib.util
+import importlib
 import math
 import threading
 from collections.abc import Callable
@@ -19,12 +19,13 @@ import numpy as np
 
 from coplanar.engine import scalars
 from coplanar.engine.binding import PRIMITIVES, array_primitives, bind
-from coplanar.engine.foreign import is_foreign, namespace_of
+from coplanar.engine.foreign import alike, broadcast_shape, is_foreign
+from coplanar.errors import InvalidShape
 
 FIRST_COMPILED_ROWS = 20_000  # below this a batch never waits for the compiler
 COMPILED_ROWS = 100  # from here the compiled loop wins, once it is there
 
-_NUMBERS = frozenset((float, int, bool))
+_FLOAT = frozenset((float,))
 _FLOAT_PRIMITIVES = {name: getattr(scalars, name) for name in (*PRIMITIVES, "integral")}
 _float_laws: dict[Any, Any] = {}
 
@@ -57,8 +58,12 @@ class Evaluator:
         functools.update_wrapper(self, law)
 
     def __call__(self, *args: Any) -> Any:
-        """Evaluate the law; see the class for what comes out."""
-        if _NUMBERS.issuperset(map(type, args)):
+        """Evaluate the law; see the class for what comes out.
+
+        Raises:
+            InvalidShape: If the arguments do not broadcast.
+        """
+        if _FLOAT.issuperset(map(type, args)):
             try:
                 return self.on_floats(*args)
             except (ArithmeticError, ValueError):  # where math raises, arrays answer inf or NaN
@@ -66,7 +71,7 @@ class Evaluator:
         if any(is_foreign(a) for a in args):
             return self._on_foreign(args)
         inputs = _as_arrays(args)
-        shape = np.broadcast_shapes(*(a.shape for a in inputs))
+        shape = self._shape(inputs)
         if not shape:
             return self(*(float(a) for a in inputs))
         rows = math.prod(shape)
@@ -77,27 +82,43 @@ class Evaluator:
     def on_text(self, *args: Any) -> Any:
         """The law as it is written, on NumPy arrays."""
         inputs = _as_arrays(args)
-        shape = np.broadcast_shapes(*(a.shape for a in inputs))
+        shape = self._shape(inputs)
         with np.errstate(all="ignore"):
             answer = self.law(*inputs)
         if isinstance(answer, tuple):
-            return tuple(_full(a, shape) for a in answer)
-        return _full(answer, shape)
+            return _full(answer, shape, inputs)
+        return _full((answer,), shape, inputs)[0]
 
     def on_compiled(self, *args: Any, out: tuple[np.ndarray, ...] | None = None) -> Any:
         """The law in a compiled loop, on NumPy arrays.
 
         Args:
             *args: Numbers and arrays that broadcast.
-            out: Where to write: one C-contiguous array of the broadcast shape for each result.
+            out: Where to write: one array for each result, of the broadcast shape and the float type of the arguments.
+
+        Raises:
+            InvalidShape: If the arguments do not broadcast, or ``out`` is not as it should be.
         """
         inputs = _as_arrays(args)
-        shape = np.broadcast_shapes(*(a.shape for a in inputs))
-        first = self(*(float(a.reshape(-1)[0]) if a.size else 0.0 for a in inputs))
+        shape = self._shape(inputs)
         dtype = inputs[0].dtype
-        outs = out or tuple(np.empty(shape, dtype) for _ in (first if isinstance(first, tuple) else (first,)))
+        outs = tuple(np.empty(shape, dtype) for _ in range(self._results)) if out is None else out
+        if out is not None:
+            _check_out(outs, self._results, shape, dtype)
         self.kernel().run(inputs, outs, shape)
-        return outs if isinstance(first, tuple) else outs[0]
+        return outs if self._returns_tuple else outs[0]
+
+    @functools.cached_property
+    def _one_answer(self) -> Any:
+        return self(*(0.5,) * self.law.__code__.co_argcount)
+
+    @property
+    def _returns_tuple(self) -> bool:
+        return isinstance(self._one_answer, tuple)
+
+    @property
+    def _results(self) -> int:
+        return len(self._one_answer) if self._returns_tuple else 1
 
     def on_namespace(self, namespace: Any) -> Callable[..., Any]:
         """The law over another array library's namespace."""
@@ -112,13 +133,25 @@ class Evaluator:
                 self._kernel = Kernel(self.law)
             return self._kernel
 
+    def _shape(self, arrays: Any) -> tuple[int, ...]:
+        try:
+            return broadcast_shape(arrays)
+        except ValueError:
+            names = self.law.__code__.co_varnames[: len(arrays)]
+            given = "shapes " + ", ".join(str(tuple(a.shape)) for a in arrays)
+            raise InvalidShape(", ".join(names), given, "shapes that broadcast as in NumPy") from None
+
     def _on_one_row(self, args: tuple[Any, ...]) -> Any:
         answer = self.on_text(*args)
         return tuple(float(a) for a in answer) if isinstance(answer, tuple) else float(answer)
 
     def _on_foreign(self, args: tuple[Any, ...]) -> Any:
-        xp = namespace_of(next(a for a in args if is_foreign(a)))
-        return self.on_namespace(xp)(*(xp.asarray(a) for a in args))
+        xp, arrays = alike(args)
+        shape = self._shape(arrays)
+        answer = self.on_namespace(xp)(*arrays)
+        if isinstance(answer, tuple):
+            return tuple(xp.broadcast_to(xp.asarray(a), shape) for a in answer)
+        return xp.broadcast_to(xp.asarray(answer), shape)
 
 
 @functools.cache
@@ -129,8 +162,12 @@ def evaluator(law: Callable[..., Any]) -> Evaluator:
 
 @functools.cache
 def can_compile() -> bool:
-    """Whether Numba is installed here; without it the NumPy text answers every batch."""
-    return importlib.util.find_spec("numba") is not None
+    """Whether Numba is installed here and imports; without it the NumPy text answers every batch."""
+    try:
+        importlib.import_module("numba")
+    except ImportError:  # absent, or not made for the NumPy that is here
+        return False
+    return True
 
 
 @functools.cache
@@ -152,6 +189,19 @@ def _as_arrays(args: tuple[Any, ...]) -> tuple[np.ndarray, ...]:
     return tuple(a.astype(dtype, copy=False) for a in arrays)
 
 
-def _full(answer: Any, shape: tuple[int, ...]) -> np.ndarray:
-    array = np.asarray(answer)
-    return array if array.shape == shape else np.broadcast_to(array, shape).copy()
+def _full(answer: tuple[Any, ...], shape: tuple[int, ...], inputs: tuple[np.ndarray, ...]) -> tuple[np.ndarray, ...]:
+    """The answers as arrays of their own, of one shape and the type of the inputs."""
+    taken = list(inputs)
+    for part in answer:
+        array = np.asarray(part, inputs[0].dtype)
+        if array.shape != shape or any(array is a for a in taken):
+            array = np.broadcast_to(array, shape).copy()
+        taken.append(array)
+    return tuple(taken[len(inputs) :])
+
+
+def _check_out(outs: tuple[np.ndarray, ...], results: int, shape: tuple[int, ...], dtype: Any) -> None:
+    fits = [a.shape == shape and a.dtype == dtype and a.flags.writeable for a in outs]
+    if len(outs) != results or not all(fits):
+        given = "shapes and types " + ", ".join(f"{a.shape} {a.dtype}" for a in outs)
+        raise InvalidShape("out", given, f"{results} writeable arrays of shape {shape}, type {dtype}")

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import functools
 import importlib
 import types
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 
+_OURS = (float, np.ndarray, int, np.generic)
+
 
 def is_foreign(value: object) -> bool:
     """Whether ``value`` is an array of another library, such as JAX or PyTorch."""
-    if isinstance(value, np.ndarray | np.generic | float | int):
+    if isinstance(value, _OURS):
         return False
     return hasattr(value, "__array_namespace__") or _root(value) == "torch"
 
@@ -43,6 +47,19 @@ def components(points: Any) -> tuple[Any, ...]:
     return tuple(points[..., i] for i in range(points.shape[-1]))
 
 
+def alike(values: Iterable[Any]) -> tuple[types.ModuleType, list[Any]]:
+    """The values as arrays of the foreign library among them, of one float type: the arrays', not the numbers'.
+
+    A number joins arrays as in NumPy: it takes their type. (PyTorch would make a float32 of 0.1 on its own.)
+    """
+    values = list(values)
+    xp = next(namespace_of(v) for v in values if is_foreign(v))
+    types_met = [xp.asarray(v).dtype for v in values if is_foreign(v) or np.ndim(v)]
+    floats = [t for t in types_met if "float" in str(t)] or [xp.asarray(1.0).dtype]
+    dtype = functools.reduce(xp.promote_types, floats)
+    return xp, [xp.asarray(v, dtype=dtype) for v in values]
+
+
 def stack(parts: Any, axis: int = -1) -> Any:
     """The parts side by side on a new axis, broadcast to one shape.
 
@@ -54,9 +71,18 @@ def stack(parts: Any, axis: int = -1) -> Any:
         >>> stack((1.0, np.zeros(3))).shape
         (3, 2)
     """
-    xp = next((namespace_of(p) for p in parts if is_foreign(p)), np)
-    broadcast = getattr(xp, "broadcast_arrays", None) or xp.broadcast_tensors
-    return xp.stack(broadcast(*(xp.asarray(p) for p in parts)), axis)
+    parts = tuple(parts)
+    if all(type(p) is float for p in parts):
+        return np.array(parts)
+    if any(is_foreign(p) for p in parts):
+        xp, arrays = alike(parts)
+        return xp.stack([xp.broadcast_to(a, broadcast_shape(arrays)) for a in arrays], axis)
+    return np.stack(np.broadcast_arrays(*parts), axis)
+
+
+def broadcast_shape(arrays: Iterable[Any]) -> tuple[int, ...]:
+    """The common shape of arrays of any library."""
+    return np.broadcast_shapes(*(tuple(a.shape) for a in arrays))
 
 
 def _root(value: object) -> str:

@@ -23,23 +23,23 @@ def rule(points: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
 
 
 UNKNOWN = 16  # panels where the count is not known yet: an array that is being traced has no values
+MOST_PANELS = 1_000_000  # beyond, the answer is NaN: a phase of millions of radians is a mistake, not a motion
 
 
 def panel_count(panels: Any) -> int:
-    """How many panels serve every entry: the largest, rounded up, at least 1.
+    """How many panels serve every entry: the largest that is no more than ``MOST_PANELS``, rounded up, at least 1.
 
-    Under tracing (``jax.jit``) the entries have no values, and ``UNKNOWN`` panels are taken.
+    Under tracing (``jax.jit``) the entries have no values, and ``UNKNOWN`` panels are taken. An entry that asks for
+    more panels than there are, or for NaN, has no integral: ``integrate`` answers NaN for it.
 
     Example:
-        >>> panel_count(0.2), panel_count(np.array([0.5, 2.5]))
+        >>> panel_count(0.2), panel_count(np.array([0.5, 2.5, np.nan]))
         (1, 3)
     """
     if isinstance(panels, float | int):
-        return max(1, math.ceil(panels)) if math.isfinite(panels) else 1
-    if getattr(panels, "size", 1) == 0:
-        return 1
+        return math.ceil(panels) if 1.0 < panels <= MOST_PANELS else 1
     try:
-        largest = float(panels.max())
-    except TypeError:
+        entries = np.asarray(panels)
+    except (TypeError, RuntimeError):  # JAX says TypeError of a traced array, PyTorch RuntimeError of one with gradient
         return UNKNOWN
-    return max(1, math.ceil(largest)) if math.isfinite(largest) else 1
+    return math.ceil(float(np.max(entries, where=entries <= MOST_PANELS, initial=1.0)))

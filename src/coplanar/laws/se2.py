@@ -6,13 +6,18 @@ Exponential coordinates (dx, dy, dtheta) are a displacement seen from the moving
 Sources: Lynch and Park 2017, Modern Robotics, ch. 3; Sola, Deray, Atchuthan 2018, A micro Lie theory, sec. IV.
 """
 
-from coplanar.engine import PI, TAU, dsinc, nearest, sinc, sincos, where
+from coplanar.engine import PI, TAU, absolute, atan2, dsinc, hypot, sinc, sincos, turn_remainder, where
 
 
 def wrap(angle):
-    """The same direction in (-pi, pi]."""
-    rest = angle - TAU * nearest(angle / TAU)
+    """The same direction in (-pi, pi]: whole turns of TAU taken off, without rounding."""
+    rest = turn_remainder(angle)
     return where(rest <= -PI, rest + TAU, rest)
+
+
+def heading(cosine, sine):
+    """Heading in (-pi, pi] of the direction (cos theta, sin theta), of any length but 0."""
+    return wrap(atan2(sine, cosine))
 
 
 def rotate(theta, px, py):
@@ -110,6 +115,16 @@ def right_jacobian(dx, dy, dtheta):
     return chord * c, chord * s, c2 * px + s2 * py, c2 * py - s2 * px
 
 
+def during(vx, vy, omega, dt):
+    """Displacement made in dt at a constant twist: xi = V dt."""
+    return vx * dt, vy * dt, omega * dt
+
+
+def over(dx, dy, dtheta, dt):
+    """The constant twist that makes a displacement in dt: V = xi / dt."""
+    return dx / dt, dy / dt, dtheta / dt
+
+
 def screw(x, y, theta, dx, dy, dtheta, fraction):
     """The pose a fraction of the way along the constant twist (dx, dy, dtheta)."""
     return step(x, y, theta, fraction * dx, fraction * dy, fraction * dtheta)
@@ -118,6 +133,11 @@ def screw(x, y, theta, dx, dy, dtheta, fraction):
 def lerp(x1, y1, theta1, x2, y2, theta2, fraction):
     """Position on the straight line and heading on the shorter turn, each on its own."""
     return x1 + fraction * (x2 - x1), y1 + fraction * (y2 - y1), theta1 + fraction * wrap(theta2 - theta1)
+
+
+def separation(x1, y1, theta1, x2, y2, theta2):
+    """Distance of two origins, and the angle in [0, pi] between two headings."""
+    return hypot(x2 - x1, y2 - y1), absolute(wrap(theta2 - theta1))
 
 
 def coordinate(px, py, ax, ay):

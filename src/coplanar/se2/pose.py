@@ -9,7 +9,7 @@ import numpy as np
 
 from coplanar import checks
 from coplanar.checks import ArrayLike, Real
-from coplanar.engine import components, evaluator, stack
+from coplanar.engine import components, evaluator, is_foreign, stack
 from coplanar.errors import InvalidShape, InvalidValue
 from coplanar.laws import se2 as laws
 from coplanar.se2.triple import Triple, matrix_of
@@ -27,15 +27,20 @@ _between = evaluator(laws.between)
 _compose = evaluator(laws.compose)
 _exp = evaluator(laws.exp)
 _exp_jacobian = evaluator(laws.exp_jacobian)
+_heading = evaluator(laws.heading)
 _inverse = evaluator(laws.inverse)
 _lerp = evaluator(laws.lerp)
 _log = evaluator(laws.log)
 _rotate = evaluator(laws.rotate)
+_screw = evaluator(laws.screw)
+_separation = evaluator(laws.separation)
 _step = evaluator(laws.step)
 _wrap = evaluator(laws.wrap)
 
+_A_RATE = "a Twist makes one by during(duration)"
 
-@dataclass(frozen=True, slots=True)
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Pose(Triple):
     """A frame in another: origin (x, y) and heading theta; or poses of any leading shape.
 
@@ -68,15 +73,20 @@ class Pose(Triple):
             >>> Pose.exp(Displacement(pi / 2, 0.0, pi / 2)).as_array().round(12).tolist()
             [1.0, 1.0, 1.570796326795]
         """
+        checks.instance("displacement", displacement, Displacement, remedy=_A_RATE)
         return cls._of(*_exp(displacement.dx, displacement.dy, displacement.dtheta))
 
     @classmethod
-    def from_matrix(cls, matrix: ArrayLike) -> Pose:
+    def from_matrix(cls, matrix: ArrayLike, *, rotation_error: float = 1e-9) -> Pose:
         """The pose of homogeneous matrices, shape (..., 3, 3); the heading comes in (-pi, pi].
+
+        Args:
+            matrix: [[R, p], [0, 0, 1]].
+            rotation_error: How far R^T R may be from 1, and the last row from (0, 0, 1), entry by entry [-].
 
         Raises:
             InvalidShape: If the last axes are not 3 by 3.
-            InvalidValue: If the upper left block is no rotation (to 1e-9) or the last row is not (0, 0, 1).
+            InvalidValue: If the upper left block is no rotation (a reflection is none) or the last row is another.
 
         Example:
             >>> Pose.from_matrix(Pose(1.0, 2.0, 3.0).as_matrix())
@@ -85,11 +95,11 @@ class Pose(Triple):
         T = checks.vector("matrix", matrix, 3)
         if T.ndim < 2 or T.shape[-2] != 3:
             raise InvalidShape("matrix", f"shape {T.shape}", "shape (..., 3, 3)")
-        R = T[..., :2, :2]
-        unit = np.abs(R @ R.swapaxes(-1, -2) - np.eye(2)).max(initial=0.0) < 1e-9
-        if not (unit and np.all(np.linalg.det(R) > 0) and np.all(T[..., 2, :] == (0, 0, 1))):
-            raise InvalidValue("matrix", matrix, "[[R, p], [0, 0, 1]] with a rotation R")
-        return cls(T[..., 0, 2], T[..., 1, 2], np.arctan2(T[..., 1, 0], T[..., 0, 0]))
+        if not is_foreign(T) and not _is_rigid(T, checks.positive("rotation_error", rotation_error)):
+            raise InvalidValue(
+                "matrix", matrix, "[[R, p], [0, 0, 1]] with a rotation R", "no scale, no reflection, not transposed"
+            )
+        return cls(T[..., 0, 2], T[..., 1, 2], _heading(T[..., 0, 0], T[..., 1, 0]))
 
     def as_matrix(self) -> np.ndarray:
         """T = [[R, p], [0, 0, 1]], shape (..., 3, 3).
@@ -120,27 +130,30 @@ class Pose(Triple):
         """``T_a_b @ T_b_c`` composes; ``T_a_b @ p_b`` takes points, shape (..., 2), to frame a."""
         if isinstance(other, Pose):
             return Pose._of(*_compose(self.x, self.y, self.theta, other.x, other.y, other.theta))
-        points: np.ndarray = stack(self.act(*components(checks.vector("points", other, 2))))
+        if isinstance(other, Triple):
+            remedy = "step() takes a Displacement, transform() a Twist"
+            raise InvalidValue("right of @", other, "a Pose or points (..., 2)", remedy)
+        points: np.ndarray = stack(_act(self.x, self.y, self.theta, *components(checks.vector("points", other, 2))))
         return points
 
-    def act(self, px: Real, py: Real) -> tuple[Real, Real]:
+    def act(self, px: ArrayLike, py: ArrayLike) -> tuple[Real, Real]:
         """Coordinates in the outer frame of the point (px, py): C_0 = O_1 + R C_1.
 
         Example:
             >>> Pose(1.0, 2.0, 0.0).act(0.5, 0.0)
             (1.5, 2.0)
         """
-        x, y = _act(self.x, self.y, self.theta, px, py)
+        x, y = _act(self.x, self.y, self.theta, checks.real("px", px), checks.real("py", py))
         return x, y
 
-    def act_inverse(self, px: Real, py: Real) -> tuple[Real, Real]:
+    def act_inverse(self, px: ArrayLike, py: ArrayLike) -> tuple[Real, Real]:
         """Coordinates in the inner frame of an outer point: C_1 = R^T (C_0 - O_1).
 
         Example:
             >>> Pose(1.0, 2.0, 0.0).act_inverse(1.5, 2.0)
             (0.5, 0.0)
         """
-        x, y = _act_inverse(self.x, self.y, self.theta, px, py)
+        x, y = _act_inverse(self.x, self.y, self.theta, checks.real("px", px), checks.real("py", py))
         return x, y
 
     def inverse(self) -> Pose:
@@ -159,6 +172,7 @@ class Pose(Triple):
             >>> Pose(1.0, 2.0, 0.0).between(Pose(3.0, 2.0, 0.5))
             Pose(x=2.0, y=0.0, theta=0.5)
         """
+        checks.instance("other", other, Pose)
         return Pose._of(*_between(self.x, self.y, self.theta, other.x, other.y, other.theta))
 
     def log(self) -> Displacement:
@@ -178,6 +192,7 @@ class Pose(Triple):
             >>> Pose(1.0, 0.0, 0.0).step(Displacement(2.0, 0.0, 0.0))
             Pose(x=3.0, y=0.0, theta=0.0)
         """
+        checks.instance("increment", increment, Displacement, remedy=_A_RATE)
         return Pose._of(*_step(self.x, self.y, self.theta, increment.dx, increment.dy, increment.dtheta))
 
     def transform(self, twist: Twist) -> Twist:
@@ -187,6 +202,7 @@ class Pose(Triple):
             >>> Pose(0.0, 1.0, 0.0).transform(Twist(0.0, 0.0, 2.0))
             Twist(vx=2.0, vy=0.0, omega=2.0)
         """
+        checks.instance("twist", twist, Twist)
         return Twist._of(*_adjoint(self.x, self.y, self.theta, twist.vx, twist.vy, twist.omega))
 
     def adjoint(self) -> np.ndarray:
@@ -216,7 +232,35 @@ class Pose(Triple):
         """
         checks.choice("path", path, ("screw", "decoupled"))
         f = checks.real("fraction", fraction)
+        way = self.between(other)
         if path == "decoupled":
-            return Pose._of(*_lerp(self.x, self.y, self.theta, other.x, other.y, other.theta, f))
-        way = self.between(other).log()
-        return self.step(Displacement._of(way.dx * f, way.dy * f, way.dtheta * f))
+            return Pose._of(*_lerp(*self.parts, *other.parts, f))
+        return Pose._of(*_screw(*self.parts, *way.log().parts, f))
+
+    def is_close(self, other: Pose, *, distance: float, angle: float) -> bool | np.ndarray:
+        """Whether the origins and the directions are no further apart than told, pose by pose.
+
+        Args:
+            other: The pose to compare with; headings may differ by whole turns.
+            distance: Between the origins [m].
+            angle: Between the directions [rad].
+
+        Example:
+            >>> from math import pi
+            >>> Pose(1.0, 0.0, pi).is_close(Pose(1.0, 1e-12, -pi), distance=1e-9, angle=1e-9)
+            True
+        """
+        checks.instance("other", other, Pose)
+        apart, turned = _separation(*self.parts, *other.parts)
+        near: bool | np.ndarray = (apart <= checks.not_negative("distance", distance)) & (
+            turned <= checks.not_negative("angle", angle)
+        )
+        return near
+
+
+def _is_rigid(T: np.ndarray, error: float) -> bool:
+    R = T[..., :2, :2]
+    square = np.abs(R.swapaxes(-1, -2) @ R - np.eye(2)).max(initial=0.0)
+    last = np.abs(T[..., 2, :] - (0.0, 0.0, 1.0)).max(initial=0.0)
+    determinant = R[..., 0, 0] * R[..., 1, 1] - R[..., 0, 1] * R[..., 1, 0]
+    return bool(square <= error and last <= error and np.all(determinant > 0.0))

@@ -13,12 +13,14 @@ from coplanar.engine import components, evaluator, stack
 from coplanar.laws import se2 as laws
 from coplanar.se2.triple import Triple, matrix_of
 
+_during = evaluator(laws.during)
 _exp_jacobian = evaluator(laws.exp_jacobian)
+_over = evaluator(laws.over)
 _right_jacobian = evaluator(laws.right_jacobian)
 _rotate = evaluator(laws.rotate)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Displacement(Triple):
     """An increment seen from the moving frame: exponential coordinates of a pose.
 
@@ -64,10 +66,10 @@ class Displacement(Triple):
             InvalidValue: If the duration is not positive.
         """
         dt = checks.positive("duration", duration)
-        return Twist._of(self.dx / dt, self.dy / dt, self.dtheta / dt)
+        return Twist._of(*_over(self.dx, self.dy, self.dtheta, dt))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Twist(Triple):
     """A velocity of the body seen from the body.
 
@@ -89,7 +91,7 @@ class Twist(Triple):
     def during(self, duration: ArrayLike) -> Displacement:
         """The displacement made in ``duration`` [s] at this constant twist; negative durations go back."""
         dt = checks.real("duration", duration)
-        return Displacement._of(self.vx * dt, self.vy * dt, self.omega * dt)
+        return Displacement._of(*_during(self.vx, self.vy, self.omega, dt))
 
     def in_world(self, heading: ArrayLike) -> np.ndarray:
         """Pose rates (xdot, ydot, thetadot) of a body with this heading [rad], shape (..., 3).
@@ -113,4 +115,4 @@ class Twist(Triple):
         """
         vx, vy, omega = components(checks.vector("rates", rates, 3))
         forward, left = _rotate(-checks.real("heading", heading), vx, vy)
-        return cls._of(forward, left, omega)
+        return cls._of(forward, left, checks.frozen(omega))

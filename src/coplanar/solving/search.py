@@ -106,16 +106,15 @@ class Search:
         """Iterate until every row is done or the budget is spent."""
         tolerance = settings.tolerance
         self.factor = np.full(len(self.x), settings.damping)
-        with np.errstate(all="ignore"):
-            self._note(np.zeros(len(self.x)), np.zeros(len(self.x)), np.ones(len(self.x), dtype=bool))
-            self.code[~np.isfinite(self.value).all(axis=-1)] = code_of(Status.NOT_FINITE)
-            self._close(np.arange(len(self.x)), tolerance)
-            for _ in range(budget):
-                rows = np.flatnonzero(self.code == _OPEN)
-                if not rows.size:
-                    break
-                self._advance(rows, settings)
-                self._close(rows, tolerance)
+        self._note(np.zeros(len(self.x)), np.zeros(len(self.x)), np.ones(len(self.x), dtype=bool))
+        self.code[~np.isfinite(self.value).all(axis=-1)] = code_of(Status.NOT_FINITE)
+        self._close(np.arange(len(self.x)), tolerance)
+        for _ in range(budget):
+            rows = np.flatnonzero(self.code == _OPEN)
+            if not rows.size:
+                break
+            self._advance(rows, settings)
+            self._close(rows, tolerance)
 
     def _advance(self, rows: np.ndarray, settings: Settings) -> None:
         """One step of the open rows."""

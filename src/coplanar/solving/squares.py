@@ -132,8 +132,9 @@ def least_squares(
     lead, n = x.shape[:-1], x.shape[-1]
     columns = tuple(_flat(p, lead) for p in parameters)
     problem = Problem(function, jacobian, Limits.of(bounds, n))
-    search = Search(problem, x.reshape(-1, n), columns, single=not lead)
-    search.run(settings, iterations)
+    with np.errstate(all="ignore"):  # what is not finite becomes a status
+        search = Search(problem, x.reshape(-1, n), columns, single=not lead)
+        search.run(settings, iterations)
     return _result(search, lead, tuple(np.asarray(p) for p in parameters))
 
 

@@ -8,12 +8,17 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic
 
+from coplanar.engine.arrays import PI, TAU
+
 FLAGS = {"contract", "nsz"}  # fused multiply-add; no care for the sign of zero; NaN and infinity stay exact
-FAR = 1.0e5  # [rad] the three-part reduction by pi/2 is exact to here
+FAR = 1.0e5  # [rad] the reductions by pi/2 and by 2 pi are exact to here
+TAU_HIGH = 6.2831853069365025  # TAU to 32 bits, so that its products with whole numbers to 2^21 are exact
+TAU_LOW = TAU - TAU_HIGH  # the 21 bits left of TAU; exact
 STEEP = 700.0  # exp and its kin beyond it are left to the C library
 
 
@@ -66,11 +71,14 @@ def sincos(x):
 
 @inline
 def atan2(y, x):
-    """Angle of (x, y): atan t = t + t z P(z), z = t^2, |t| <= tan(pi/8), P of degree 11 (error 1.2e-18)."""
+    """Angle of (x, y): atan t = t + t z P(z), z = t^2, |t| <= tan(pi/8), P of degree 11 (error 1.2e-18).
+
+    NaN where the sum of the sides is no number or overflows, and at the origin: there the C library answers.
+    """
     ay, ax = abs(y), abs(x)
     near, far = min(ax, ay), max(ax, ay)
     steep = near > 0.41421356237309503 * far
-    t = (near - far if steep else near) / (near + far if steep else far)
+    t = (near - far if steep else near) / (near + far if steep else far) + 0.0 * (ax + ay)
     z = t * t
     p = z * (-0.3333333333333333 + z * (0.19999999999999804 + z * (-0.14285714285659828 + z * (
         0.11111111105155447 + z * (-0.09090908753500877 + z * (0.07692296375032143 + z * (
@@ -81,6 +89,16 @@ def atan2(y, x):
     angle = (1.5707963267948966 - (angle - 6.123233995736766e-17)) if ay > ax else angle
     angle = (3.141592653589793 - (angle - 1.2246467991473532e-16)) if x < 0.0 else angle
     return math.copysign(angle, y)
+
+
+@inline
+def turn_remainder(x):
+    """The angle less the whole turns nearest to it; every product and difference here is exact to ``FAR``."""
+    turns = np.rint(x * (1.0 / TAU))
+    rest = (x - turns * TAU_HIGH) - turns * TAU_LOW
+    rest = rest - TAU if rest > PI else rest
+    rest = rest + TAU if rest < -PI else rest
+    return rest if abs(x) <= FAR else math.nan
 
 
 @inline

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
 import os
 import threading
@@ -10,9 +11,11 @@ from types import FunctionType
 import numpy as np
 from numba import njit
 
+from coplanar.engine.arrays import Integral
 from coplanar.engine.binding import bind
 from coplanar.engine.compiled import loops, scans
 from coplanar.engine.compiled.cache import in_folder
+from coplanar.engine.compiled.doubt import shows_every_nan
 from coplanar.engine.compiled.elementary import FLAGS, inline
 from coplanar.engine.compiled.primitives import FAST, SAFE
 
@@ -44,10 +47,10 @@ class Kernel:
         """
         count, width = size
         owned = [array.size != count for array in inputs]
-        begin, walk = zip(*(_column(a, (width,)) for a in initial), strict=True)
-        held = [_column(a, (width,)) for a in parameters]
-        shared = tuple(a for a, own in zip(inputs, owned, strict=True) if not own)
-        own = tuple(a for a, own in zip(inputs, owned, strict=True) if own)
+        begin, walk = zip(*(_column(a, (width,), width) for a in initial), strict=True)
+        held = [_column(a, (width,), width) for a in parameters]
+        shared = tuple(_read_only(a) for a, own in zip(inputs, owned, strict=True) if not own)
+        own = tuple(_read_only(a) for a, own in zip(inputs, owned, strict=True) if own)
         pattern = sum(1 << k for k, own in enumerate(owned) if own)
         arguments = (
             begin, walk, shared, own, tuple(c for c, _ in held), tuple(s for _, s in held), outputs, (count, width)
@@ -60,38 +63,53 @@ class Kernel:
 
         Args:
             inputs: Arrays of one float type that broadcast to ``shape``.
-            outputs: C-contiguous arrays of ``shape`` and that type.
+            outputs: Arrays of ``shape`` and that type, which may lie in memory as they like, over the inputs too.
             shape: The common shape.
         """
         rows = math.prod(shape)
-        columns = tuple(out.reshape(-1) for out in outputs)
-        ready = [_column(a, shape) for a in inputs]
+        fit = [_may_be_written(out, inputs) for out in outputs]
+        targets = [out if fits else np.empty(shape, out.dtype) for out, fits in zip(outputs, fit, strict=True)]
+        self._fill([_column(a, shape, rows) for a in inputs], inputs, tuple(t.reshape(-1) for t in targets), shape)
+        for out, target in zip(outputs, targets, strict=True):
+            if out is not target:
+                out[...] = target
+
+    def _fill(self, ready, inputs, columns, shape):
+        rows = math.prod(shape)
         if all(column is not None for column, _ in ready):
             ins, steps = zip(*ready, strict=True)
             self._loop("rows", (ins, steps, columns, rows), rows, rows)
             return
         whole = [np.broadcast_to(a, shape).flat for a in inputs]
+        steps = tuple(step for _, step in ready)
         span = 16 * loops.BLOCK
         for start in range(0, rows, span):
             stop = min(start + span, rows)
             ins = tuple(
-                (column[start:stop] if step else column) if column is not None else np.asarray(flat[start:stop])
+                _read_only(flat[start:stop]) if column is None else column[start:stop] if step else column
                 for (column, step), flat in zip(ready, whole, strict=True)
             )
-            steps = tuple(step if column is not None else 1 for column, step in ready)
             outs = tuple(c[start:stop] for c in columns)
             self._loop("rows", (ins, steps, outs, stop - start), stop - start, stop - start)
 
     def _loop(self, kind, arguments, work, rows, constants=()):
         """Threads where they pay and are free; a forked child never touches the parent's threads."""
-        threads_pay = work >= PARALLEL_FROM and rows >= 2 * loops.BLOCK and os.getpid() == _process
+        threads_pay = work >= PARALLEL_FROM and rows >= 2 * scans.BLOCK and os.getpid() == _process
         if threads_pay and _threads.acquire(blocking=False):
             try:
-                self._compiled(f"{kind}_parallel", constants)(*arguments)
+                self._call(f"{kind}_parallel", constants, arguments)
             finally:
                 _threads.release()
         else:
-            self._compiled(f"{kind}_serial", constants)(*arguments)
+            self._call(f"{kind}_serial", constants, arguments)
+
+    def _call(self, loop, constants, arguments):
+        try:
+            self._compiled(loop, constants)(*arguments)
+        except OSError:  # the cache folder went away, or is full
+            with self._lock:
+                self._loops[loop, constants] = _compile(self._law, loop, constants, cached=False)
+            self._loops[loop, constants](*arguments)
 
     def _compiled(self, loop, constants):
         with self._lock:
@@ -100,29 +118,43 @@ class Kernel:
             return self._loops[loop, constants]
 
 
-def _column(array, shape):
-    """The array as a flat column and its step, or None where it has to be spread first."""
-    if array.size == 1 and shape != (1,):
-        return np.full(loops.BLOCK, array.reshape(-1)[0], array.dtype), 0
-    if array.shape == shape and array.flags.c_contiguous:
-        return array.reshape(-1), 1
+def _column(array, shape, rows):
+    """The array as a flat column and its step, or None where it has to be spread first.
+
+    All columns are read-only, so that a loop is compiled once whether or not the caller's arrays are.
+    """
+    if array.size == 1:
+        return _read_only(np.full(min(rows, loops.BLOCK), array.item(), array.dtype)), 0
+    if array.shape == shape and array.flags.c_contiguous and array.flags.aligned:
+        return _read_only(array.reshape(-1)), 1
     return None, 1
 
 
-def _compile(law, loop, constants):
+def _read_only(array):
+    column = array.view()
+    column.flags.writeable = False
+    return column
+
+
+def _may_be_written(out, inputs):
+    """Whether the loop can write into ``out`` itself: a row may be read again after it was written."""
+    return out.flags.c_contiguous and out.flags.aligned and not any(np.may_share_memory(out, a) for a in inputs)
+
+
+def _compile(law, loop, constants, *, cached=True):
     module = scans if loop.startswith("scan") else loops
-    label = "_".join([law.__module__.rpartition(".")[2], law.__name__, *(f"{k}{v}" for k, v in constants)])
-    names = {
-        "law": bind(law, FAST, inline, _fast_laws),
-        "safe_law": bind(law, SAFE, _out_of_line, _safe_laws),
-        **dict(constants),
-    }
+    label = "_".join(
+        [law.__module__.rpartition(".")[2], law.__name__, *(f"{k}{v}" for k, v in constants), _digest(law)]
+    )
+    safe_law = bind(law, SAFE, _out_of_line, _safe_laws)
+    fast_law = bind(law, FAST, inline, _fast_laws) if shows_every_nan(law) else safe_law
+    names = {"law": fast_law, "safe_law": safe_law, **dict(constants)}
     for part in module.PARTS:
         names[part.__name__] = njit(_template(part, label, names), fastmath=FLAGS, error_model="numpy", nogil=True)
-    with in_folder() as cached:
+    with in_folder() as writeable:
         return njit(
-            _template(getattr(module, loop), label, names),
-            fastmath=FLAGS, error_model="numpy", nogil=True, cache=cached, parallel=loop.endswith("parallel"),
+            _template(getattr(module, loop), label, names), fastmath=FLAGS, error_model="numpy", nogil=True,
+            cache=cached and writeable, parallel=loop.endswith("parallel"),
         )  # fmt: skip
 
 
@@ -132,6 +164,29 @@ def _template(text, label, names):
     function = FunctionType(text.__code__, {**text.__globals__, **names}, name)
     function.__qualname__ = name
     return function
+
+
+def _digest(law):
+    """Of the law as it is in memory, with the laws it calls: it may be newer or older than its file, or have none."""
+    digest = hashlib.sha256()
+    _add_text(law, digest, set())
+    return digest.hexdigest()[:12]
+
+
+def _add_text(law, digest, seen):
+    seen.add(law)
+    code = law.__code__
+    digest.update(repr((code.co_code, code.co_consts, code.co_names)).encode())
+    for name in code.co_names:
+        value = law.__globals__.get(name)
+        if isinstance(value, Integral):
+            digest.update(str(value.points).encode())
+            value = value.integrand
+        if isinstance(value, FunctionType):
+            if value not in seen:
+                _add_text(value, digest, seen)
+        elif isinstance(value, float | int | str | tuple):
+            digest.update(repr((name, value)).encode())
 
 
 def _out_of_line(function):

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 from numba import njit
 from numba.extending import overload
 
-from coplanar.engine.arrays import DSINC_BELOW, SERIES_BELOW, dsinc_series
+from coplanar.engine.arrays import DSINC_BELOW, PI, SERIES_BELOW, TAU, dsinc_series
 from coplanar.engine.compiled import elementary
 from coplanar.engine.compiled.elementary import FLAGS, inline
-from coplanar.engine.gauss import rule
+from coplanar.engine.gauss import MOST_PANELS, rule
 
 
 @inline
@@ -70,14 +71,13 @@ def _common():
         return x if x > y or x != x else y  # NaN passes through, as in NumPy
 
     def nearest(x):
-        whole = math.floor(x + 0.5)
-        return whole - 1.0 if whole - x == 0.5 and whole % 2.0 == 1.0 else whole
+        return np.rint(x)
 
     def copysign(x, y):
         return math.copysign(x, y)
 
     def floor(x):
-        return math.floor(x) * 1.0
+        return np.floor(x)  # a float, where math.floor is an integer of 64 bits
 
     def absolute(x):
         return abs(x)
@@ -124,7 +124,12 @@ def _libm():
     def atan2(y, x):
         return math.atan2(y, x)
 
-    texts = (hypot, exp, log, log1p, expm1, sinh, cosh, tanh, asinh, atanh, sincos, atan2)
+    def turn_remainder(x):
+        rest = np.fmod(x, TAU)
+        rest = rest - TAU if rest > PI else rest
+        return rest + TAU if rest < -PI else rest
+
+    texts = (turn_remainder, hypot, exp, log, log1p, expm1, sinh, cosh, tanh, asinh, atanh, sincos, atan2)
     return {f.__name__: inline(f) for f in texts}
 
 
@@ -192,8 +197,8 @@ def _all_panels(integrand, points):
 
     @njit(fastmath=FLAGS, error_model="numpy")
     def integrate(panels, lower, upper, *parameters):
-        count = max(1, math.ceil(panels)) if panels < 1.0e9 else 1
-        half = 0.5 * (upper - lower) / count
+        count = max(1, math.ceil(panels)) if panels <= MOST_PANELS else 1
+        half = 0.5 * (upper - lower) / count if panels <= MOST_PANELS else math.nan
         total = panel(lower + half, half, parameters)
         for k in range(1, count):
             total = _add(total, 1.0, panel(lower + (2 * k + 1) * half, half, parameters))
@@ -212,3 +217,6 @@ def _primitives(functions, integral):
 _LIBM = _libm()
 FAST = _primitives({name: getattr(elementary, name) for name in _LIBM}, _one_panel)
 SAFE = _primitives(_LIBM, _all_panels)
+NAN_WHERE_NOT = frozenset(
+    (*_LIBM, "sin", "cos", "tan", "atan", "sinc", "dsinc", "integral")
+)  # the fast ones that may answer NaN for a number

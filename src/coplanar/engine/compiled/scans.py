@@ -12,17 +12,18 @@ from __future__ import annotations
 
 from numba import prange
 
-from coplanar.engine.compiled.columns import gather, merge, row, scatter, sum_of
+from coplanar.engine.compiled.columns import gather, merge, row, scatter
 
 BLOCK = 512  # rows; ten float64 columns of a block are 40 KiB
 
 
 def scan_block(initial, walk, shared, own, parameters, hold, outs, size, start, rows):
-    """One block of rows from its initial state to the end; a row that comes out as NaN is run again, safely."""
+    """One block of rows from its initial state to the end; if a NaN shows on the way it is run again, safely."""
     count, width = size
     for i in range(rows):
         scatter(outs, start, i, gather(initial, walk, start, i))
     here = start
+    doubtful = 0
     for k in range(count):
         common = row(shared, k, 0)
         mine = k * width + start
@@ -30,15 +31,16 @@ def scan_block(initial, walk, shared, own, parameters, hold, outs, size, start, 
             there = here + width
             for i in range(rows):
                 inputs = merge(common, row(own, mine, i), PATTERN)  # noqa: F821
-                scatter(outs, there, i, law(*row(outs, here, i), *inputs, *gather(parameters, hold, start, i)))  # noqa: F821
+                check = scatter(outs, there, i, law(*row(outs, here, i), *inputs, *gather(parameters, hold, start, i)))  # noqa: F821
+                doubtful += 0 if check == check else 1  # NaN is what does not equal itself
             here = there
         else:
             for i in range(rows):
                 inputs = merge(common, row(own, mine, i), PATTERN)  # noqa: F821
-                scatter(outs, start, i, law(*row(outs, start, i), *inputs, *gather(parameters, hold, start, i)))  # noqa: F821
-    for i in range(rows):
-        check = sum_of(outs, here, i)
-        if check != check:  # NaN is what does not equal itself
+                check = scatter(outs, start, i, law(*row(outs, start, i), *inputs, *gather(parameters, hold, start, i)))  # noqa: F821
+                doubtful += 0 if check == check else 1  # NaN is what does not equal itself
+    if doubtful:
+        for i in range(rows):
             scan_row(initial, walk, shared, own, parameters, hold, outs, size, start, i)
 
 

@@ -1,0 +1,221 @@
+"""Odometry: where a body is, from what it measured of each tick of its motion, and how sure that is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from coplanar import checks
+from coplanar.checks import ArrayLike, Real
+from coplanar.engine import evaluator
+from coplanar.errors import InvalidShape, InvalidValue
+from coplanar.laws import motion as laws
+from coplanar.laws import se2
+from coplanar.motion.program import held_samples
+from coplanar.motion.sequence import along, before_last_axis, running_sum
+from coplanar.se2 import Displacement, Pose
+from coplanar.se2.triple import matrix_of
+
+_increment_variances = evaluator(laws.increment_variances)
+_step = evaluator(se2.step)
+_step_jacobian = evaluator(laws.step_jacobian)
+_wheel_increments = evaluator(laws.wheel_increments)
+
+
+@dataclass(frozen=True, slots=True)
+class OdometryNoise:
+    """Independent errors whose variance grows with the way and the turn, whatever the rate of the ticks.
+
+    Attributes:
+        forward: Standard deviation along the path after 1 m [m].
+        sideways: Across the path after 1 m [m].
+        turn_per_metre: Of the heading after 1 m [rad].
+        turn_per_radian: Of the heading after turning by 1 rad [rad].
+
+    Raises:
+        InvalidValue: If one of them is negative or not finite.
+
+    Example:
+        >>> OdometryNoise(forward=0.1).covariances(Displacement(4.0, 0.0, 0.0))[0].round(12).tolist()
+        [0.04, 0.0, 0.0]
+    """
+
+    forward: Real = 0.0
+    sideways: Real = 0.0
+    turn_per_metre: Real = 0.0
+    turn_per_radian: Real = 0.0
+
+    def __post_init__(self) -> None:
+        for name in self.__slots__:
+            object.__setattr__(self, name, checks.frozen(checks.not_negative(name, getattr(self, name))))
+
+    def covariances(self, increments: Displacement) -> np.ndarray:
+        """Q of each increment (dx, dy, dtheta): s^2 per metre or radian, on the diagonal; shape (..., 3, 3)."""
+        along_, across, turn = _increment_variances(
+            *increments.parts, self.forward, self.sideways, self.turn_per_metre, self.turn_per_radian
+        )
+        return matrix_of((along_, 0.0, 0.0), (0.0, across, 0.0), (0.0, 0.0, turn))
+
+
+@dataclass(frozen=True, slots=True)
+class Odometry:
+    """A row of displacements, each along a constant twist of its own: T_k+1 = T_k exp(increment_k).
+
+    Attributes:
+        increments: What each tick measured, seen from the body; shape (..., n). Leading axes are robots.
+
+    Raises:
+        InvalidShape: If there is no last axis to run along.
+
+    Example:
+        >>> Odometry.from_wheels([1.0, 1.0], [1.0, 1.0], track=0.3).path(Pose()).x.tolist()
+        [0.0, 1.0, 2.0]
+    """
+
+    increments: Displacement
+
+    def __post_init__(self) -> None:
+        shape = self.increments.shape
+        if not shape:
+            raise InvalidShape("increments", "shape ()", "shape (..., n)", "for one tick use pose.step(increment)")
+        parts = (along(p, shape[-1]) for p in self.increments.parts)
+        object.__setattr__(self, "increments", Displacement._of(*parts))
+
+    @classmethod
+    def from_velocities(cls, v: ArrayLike, omega: ArrayLike, t: ArrayLike) -> Odometry:
+        """From velocities that hold until the next time.
+
+        Args:
+            v: Forward velocity [m/s], shape (..., n) or (..., n - 1); of n samples the last one is not driven.
+            omega: Turn rate [rad/s], likewise.
+            t: Strictly monotone times [s], shape (n,); decreasing times drive back.
+
+        Raises:
+            InvalidShape: If the counts differ.
+
+        Example:
+            >>> Odometry.from_velocities([1.0, 3.0, 9.0], 0.0, [5.0, 6.0, 8.0]).path(Pose()).x.tolist()
+            [0.0, 1.0, 7.0]
+        """
+        times = checks.monotone("t", t)
+        dt = np.diff(times)
+        forward, turn = (held_samples(name, value, times.size) for name, value in (("v", v), ("omega", omega)))
+        checks.broadcast(v=forward, omega=turn)
+        return cls(Displacement(forward * dt, 0.0, turn * dt))
+
+    @classmethod
+    def from_wheels(cls, left: ArrayLike, right: ArrayLike, *, track: ArrayLike) -> Odometry:
+        """From how far the wheels of a differential drive rolled in each tick.
+
+        Args:
+            left: Way of the left wheel [m], shape (..., n).
+            right: Way of the right wheel [m], shape (..., n).
+            track: The whole distance between the wheels [m], not half of it; a number, or shape (..., 1).
+
+        Raises:
+            InvalidValue: If the track is not positive.
+            InvalidShape: If they do not broadcast.
+
+        Example:
+            >>> Odometry.from_wheels([0.1], [0.3], track=0.4).path(Pose()).theta.round(12).tolist()
+            [0.0, 0.5]
+        """
+        ways = {"left": checks.vector("left", left), "right": checks.vector("right", right)}
+        ways["track"] = checks.positive("track", track)
+        checks.broadcast(**ways)
+        distance, turn = _wheel_increments(*ways.values())
+        return cls(Displacement(distance, 0.0, turn))
+
+    def path(self, start: Pose) -> Pose:
+        """The pose before each tick and after the last one, shape (..., n + 1), with no loop over ticks.
+
+        Headings are running sums of turns, positions running sums of chords. Headings are never wrapped.
+
+        Example:
+            >>> Odometry(Displacement([1.0, 1.0], 0.0, 0.0)).path(Pose(1.0, 2.0, 0.0)).y.tolist()
+            [2.0, 2.0, 2.0]
+        """
+        x, y, theta = map(before_last_axis, start.parts)
+        heading = theta + running_sum(self.increments.dtheta)
+        dx, dy, _ = _step(0.0, 0.0, heading[..., :-1], *self.increments.parts)
+        return Pose._of(x + running_sum(dx), y + running_sum(dy), heading)
+
+    def jacobians(self, start: Pose) -> tuple[np.ndarray, np.ndarray]:
+        """How the pose after each tick moves with the pose before it, F, and with its increment, G.
+
+        Returns:
+            F and G, each of shape (..., n, 3, 3).
+
+        Example:
+            >>> F, G = Odometry(Displacement([2.0], 0.0, 0.0)).jacobians(Pose())
+            >>> F[0].tolist()
+            [[1.0, 0.0, -0.0], [0.0, 1.0, 2.0], [0.0, 0.0, 1.0]]
+        """
+        heading = before_last_axis(start.theta) + running_sum(self.increments.dtheta)
+        a, b, u, w, dx, dy = _step_jacobian(heading[..., :-1], *self.increments.parts)
+        return lever(dx, dy), matrix_of((a, -b, u), (b, a, w), (0.0, 0.0, 1.0))
+
+    def covariances(
+        self, start: Pose, noise: OdometryNoise | ArrayLike, initial: ArrayLike | None = None
+    ) -> np.ndarray:
+        """Covariance of (x, y, theta) before each tick and after the last one: P' = F P F^T + G Q G^T.
+
+        F only moves the point that the heading's error swings about, so all of them are summed about the start and
+        moved to where each belongs: no loop over ticks.
+
+        Args:
+            start: Where it begins.
+            noise: A model, or Q of each increment, shape (..., n, 3, 3) [m^2, m rad, rad^2].
+            initial: P at the start, shape (..., 3, 3); certain where None.
+
+        Returns:
+            Shape (..., n + 1, 3, 3) [m^2, m rad, rad^2].
+
+        Raises:
+            InvalidShape: If a covariance is not 3 by 3.
+            InvalidValue: If it is not symmetric.
+
+        Example:
+            >>> straight = Odometry(Displacement([1.0, 1.0], 0.0, 0.0))
+            >>> P = straight.covariances(Pose(), OdometryNoise(forward=0.1))
+            >>> P[:, 0, 0].round(12).tolist()
+            [0.0, 0.01, 0.02]
+        """
+        Q = noise.covariances(self.increments) if isinstance(noise, OdometryNoise) else _covariance("noise", noise)
+        P = np.zeros((3, 3)) if initial is None else _covariance("initial", initial)
+        path, (_, G) = self.path(start), self.jacobians(start)
+        x, y = path.x - path.x[..., :1], path.y - path.y[..., :1]
+        added = carried(lever(-x[..., 1:], -y[..., 1:]) @ G, Q)
+        first = np.broadcast_to(P[..., None, :, :], (*np.broadcast_shapes(P.shape[:-2], added.shape[:-3]), 1, 3, 3))
+        about_start = np.cumsum(np.concatenate((first, np.broadcast_to(added, _like(first, added))), axis=-3), axis=-3)
+        return carried(lever(x, y), about_start)
+
+
+def lever(dx: Real, dy: Real) -> np.ndarray:
+    """How a pose's error moves to a point (dx, dy) away: [[1, 0, -dy], [0, 1, dx], [0, 0, 1]], shape (..., 3, 3)."""
+    return matrix_of((1.0, 0.0, -dy), (0.0, 1.0, dx), (0.0, 0.0, 1.0))
+
+
+def carried(jacobian: np.ndarray, covariance: np.ndarray) -> np.ndarray:
+    """J P J^T.
+
+    Example:
+        >>> carried(lever(0.0, 2.0), np.diag([0.0, 0.0, 1.0])).tolist()
+        [[4.0, 0.0, -2.0], [0.0, 0.0, 0.0], [-2.0, 0.0, 1.0]]
+    """
+    product: np.ndarray = jacobian @ covariance @ jacobian.swapaxes(-1, -2)
+    return product
+
+
+def _covariance(name: str, value: ArrayLike) -> np.ndarray:
+    matrix: np.ndarray = checks.vector(name, value, 3)
+    if matrix.ndim < 2 or matrix.shape[-2] != 3:
+        raise InvalidShape(name, f"shape {matrix.shape}", "shape (..., 3, 3)")
+    if not np.allclose(matrix, matrix.swapaxes(-1, -2), rtol=1e-9, atol=0.0):
+        raise InvalidValue(name, value, "symmetric matrices")
+    return matrix
+
+
+def _like(first: np.ndarray, added: np.ndarray) -> tuple[int, ...]:
+    return (*first.shape[:-3], *added.shape[-3:])
