@@ -1,6 +1,6 @@
 """Robots that live in a plane: frames, arms, wheels, motion, projectiles.
 
-SI units and radians everywhere; leading axes broadcast as in NumPy. ``T_a_b`` takes coordinates in b to coordinates in a.
+SI units and radians everywhere; leading axes broadcast as in NumPy. ``T_a_b`` takes coordinates in b to those in a.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from coplanar.control import PointTracker, PolarController, Unicycle
     from coplanar.curves import Astroid, Circle, Ellipse, FreeCurve, Lemniscate, Line, Polyline, Spline
     from coplanar.errors import CoplanarError, InvalidInput, NoSolution
+    from coplanar.flight import Projectile
     from coplanar.frames import FrameTree, coordinates, from_coordinates
     from coplanar.integrators import integrate_ode
     from coplanar.motion import (
@@ -34,62 +35,21 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _HOMES = {
-    "arms": ("Arm",),
-    "control": (
-        "PointTracker",
-        "PolarController",
-        "Unicycle",
-    ),
-    "curves": (
-        "Astroid",
-        "Circle",
-        "Ellipse",
-        "FreeCurve",
-        "Lemniscate",
-        "Line",
-        "Polyline",
-        "Spline",
-    ),
-    "errors": (
-        "CoplanarError",
-        "InvalidInput",
-        "NoSolution",
-    ),
-    "frames": (
-        "FrameTree",
-        "coordinates",
-        "from_coordinates",
-    ),
-    "integrators": ("integrate_ode",),
-    "motion": (
-        "DrivingHistory",
-        "HolonomicMotion",
-        "Odometry",
-        "OdometryNoise",
-        "Program",
-        "Ramp",
-        "Segment",
-        "Trapezoid",
-    ),
-    "run": ("Run",),
-    "se2": (
-        "Displacement",
-        "Pose",
-        "Twist",
-        "unwrap_angles",
-        "wrap_angle",
-    ),
-    "simulate": ("simulate",),
-    "tracing": ("trace",),
-    "wheels": (
-        "Icr",
-        "RollingWheel",
-        "Wheel",
-        "WheeledBase",
-        "identify_wiring",
-    ),
+    "arms": "Arm",
+    "control": "PointTracker PolarController Unicycle",
+    "curves": "Astroid Circle Ellipse FreeCurve Lemniscate Line Polyline Spline",
+    "errors": "CoplanarError InvalidInput NoSolution",
+    "flight": "Projectile",
+    "frames": "FrameTree coordinates from_coordinates",
+    "integrators": "integrate_ode",
+    "motion": "DrivingHistory HolonomicMotion Odometry OdometryNoise Program Ramp Segment Trapezoid",
+    "run": "Run",
+    "se2": "Displacement Pose Twist unwrap_angles wrap_angle",
+    "simulate": "simulate",
+    "tracing": "trace",
+    "wheels": "Icr RollingWheel Wheel WheeledBase identify_wiring",
 }
-_HOME = {name: home for home, names in _HOMES.items() for name in names}
+_HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 
 __all__ = [
     "Arm",
@@ -114,6 +74,7 @@ __all__ = [
     "Polyline",
     "Pose",
     "Program",
+    "Projectile",
     "Ramp",
     "RollingWheel",
     "Run",
