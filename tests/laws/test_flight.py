@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from coplanar.engine import evaluator
 from coplanar.flight import AimStatus, Projectile
-from coplanar.flight.path import Path, at_time, by_launch
+from coplanar.flight.path import Path, at_time
 from coplanar.laws import flight as laws
 from tests.engines import BATCH_SHAPES
 
@@ -258,19 +258,50 @@ def test_the_derivatives_of_the_launch_are_those_of_automatic_differentiation():
     jax = pytest.importorskip("jax")
     launch = (30.0, np.cos(0.8), np.sin(0.8), 0.1, 9.81)
     with jax.enable_x64(True):
-        at = evaluator(laws.travel)
+        travel, theta_of_turn = evaluator(laws.travel), evaluator(laws.theta_of_turn)
+        state = at_time(Path(*launch), 2.0)
+        turn = evaluator(laws.turn)(float(state.theta), launch[0], *launch[3:])
 
-        def flown(v, psi):  # at a constant q, not at a constant theta: theta depends on the speed
-            state = at_time(Path(*launch), 2.0)
-            q = (laws.turn(state.theta, *(launch[0], *launch[3:])) - 1.0) / launch[4]
-            theta = jax.numpy.log1p(q * laws_pace(v))
-            return jax.numpy.stack(at(0.0 * v, theta, v, jax.numpy.cos(psi), jax.numpy.sin(psi), *launch[3:]))
+        def flown(v, psi):
+            theta = theta_of_turn(turn, v, *launch[3:])  # a constant turn, not a constant theta
+            cosine, sine = jax.numpy.cos(psi), jax.numpy.sin(psi)
+            return jax.numpy.stack(travel(0.0, theta, v, cosine, sine, *launch[3:]))
 
-        def laws_pace(v):
-            return evaluator(laws.pace)(v, *launch[3:])
-
-        by_v, by_psi = (jax.jacfwd(flown, argnums=i)(jax.numpy.asarray(30.0), jax.numpy.asarray(0.8)) for i in (0, 1))
-    state = at_time(Path(*launch), 2.0)
+        by_v, by_psi = jax.jacfwd(flown, argnums=(0, 1))(jax.numpy.asarray(30.0), jax.numpy.asarray(0.8))
     ours = evaluator(laws.derivatives)(float(state.theta), *launch)
     assert np.allclose([*by_v, *by_psi], ours, rtol=1e-11)
-    assert len(by_launch(Path(*launch), state)) == 4
+
+
+coast, drag_rates = evaluator(laws.coast), evaluator(laws.drag_rates)
+
+
+@quick
+@given(st.floats(-30.0, 30.0), st.floats(-30.0, 30.0), GRAVITIES, TIMES)
+def test_coasting_without_drag_is_the_parabola(vx, vy, g, t):
+    parabola = (vx * t, vy * t - 0.5 * g * t * t, vx, vy - g * t)
+    assert np.allclose(coast(t, vx, vy, 0.0, g), parabola, rtol=1e-14, atol=1e-12)
+
+
+@quick
+@given(st.floats(-3.0, 0.3), st.floats(1.0, 25.0), TIMES)
+def test_coasting_at_terminal_speed_goes_on(log_k, g, t):
+    k = 10.0**log_k
+    end = np.sqrt(g / k)
+    assert np.allclose(coast(t, 0.0, -end, k, g), (0.0, -end * t, 0.0, -end), rtol=1e-12, atol=1e-12)
+
+
+@quick
+@given(st.floats(-30.0, 30.0), st.floats(-30.0, 30.0), st.floats(-3.0, 0.0), GRAVITIES)
+def test_coasting_starts_with_the_accelerations_of_the_flight(vx, vy, log_k, g):
+    k, h = 10.0**log_k, 1e-6
+    _, _, u, w = coast(h, vx, vy, k, g)
+    scale = k * (vx * vx + vy * vy) + g + 1.0
+    assert np.allclose(((u - vx) / h, (w - vy) / h), drag_rates(vx, vy, k, g), rtol=0.0, atol=1e-3 * scale)
+
+
+@quick
+@given(SPEEDS, ANGLES, DRAGS, TIMES)
+def test_a_path_turns_more_with_drag_than_without(v, psi, k, t):
+    path = Path(v, np.cos(psi), np.sin(psi), k, 9.81)
+    turn = evaluator(laws.turn)(float(at_time(path, t).theta), v, k, 9.81)
+    assert turn >= evaluator(laws.ballistic_turn)(t, v, np.cos(psi), np.sin(psi), 9.81) * (1 - 1e-11)

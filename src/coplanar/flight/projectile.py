@@ -38,7 +38,7 @@ class Projectile:
         >>> round(shot.impact().state.x, 6)
         42.181898
         >>> round(ball.aim((30.0, 2.0), speed=30.0).low.angle, 6)
-        0.355137
+        0.343748
     """
 
     mass: Real
