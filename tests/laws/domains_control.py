@@ -22,6 +22,8 @@ DOMAIN = {
     laws.tracking_arc: _positive(13, 14, 16, least=1.0),
     laws.schur_cohn: lambda columns: [0.3 * c for c in columns],
     laws.lateral_margin: lambda columns: [0.3 * c for c in _positive(0, 1, 5, least=1.0)(columns)],
+    laws.polar_loop: lambda columns: [0.3 * c for c in columns],
+    laws.polar_margin: lambda columns: [0.3 * c for c in columns],
     laws.pd_poles: _positive(0, 1),
     laws.largest_step: _positive(0, 2),
     laws.turn_rate: _positive(1, 2),

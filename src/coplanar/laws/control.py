@@ -11,13 +11,8 @@ Robots, sec. 3.6.2; Aicardi, Casalino, Bicchi, Balestrino 1995, Closed loop stee
 """
 
 from coplanar.engine import PI, absolute, atan2, copysign, cos, hypot, maximum, minimum, sinc, sincos, sqrt, where
-from coplanar.laws.se2 import act, rotate, step, wrap
-
-
-def unicycle_rates(theta, v, omega):
-    """(xdot, ydot, thetadot) = (v cos theta, v sin theta, omega)."""
-    s, c = sincos(theta)
-    return v * c, v * s, omega
+from coplanar.laws.motion import arc
+from coplanar.laws.se2 import act, rotate, wrap
 
 
 def unicycle_step(x, y, theta, v, omega, h, at_start, at_middle, at_end):
@@ -33,11 +28,6 @@ def unicycle_step(x, y, theta, v, omega, h, at_start, at_middle, at_end):
     forward = at_start * c0 + at_middle * c1 + at_end * c2
     sideways = at_start * s0 + at_middle * s1 + at_end * s2
     return x + way * forward, y + way * sideways, theta + turn
-
-
-def unicycle_arc(x, y, theta, v, omega, h):
-    """The arc of a held command: T exp(v h, 0, omega h)."""
-    return step(x, y, theta, v * h, 0.0, omega * h)
 
 
 def center_under(point_x, point_y, theta, px, py):
@@ -108,11 +98,11 @@ def tracking_step(
 
 
 def tracking_arc(x, y, theta, v, omega, last_x, last_y, sum_x, sum_y, rx, ry, fx, fy, h, px, py, kp, kd, ki):
-    """``track_point``, then ``unicycle_arc``: one turn of the closed loop."""
+    """``track_point``, then the arc of the held command: one turn of the closed loop."""
     v, omega, ex, ey, sum_x, sum_y = track_point(
         x, y, theta, rx, ry, fx, fy, last_x, last_y, sum_x, sum_y, px, py, kp, kd, ki, h
     )
-    x, y, theta = unicycle_arc(x, y, theta, v, omega, h)
+    x, y, theta = arc(x, y, theta, v, omega, h)
     return x, y, theta, v, omega, ex, ey, sum_x, sum_y
 
 
@@ -219,14 +209,42 @@ def polar_smooth(rho, alpha, beta, k_rho, k_alpha, k_beta):
     return k_rho * rho * forward, k_alpha * alpha + k_rho * forward * sinc(alpha) * (alpha - k_beta * beta)
 
 
-def polar_linear_loop(k_rho, k_alpha, k_beta):
-    """Near the goal (alpha, beta) obey s^2 + (k_alpha - k_rho) s - k_rho k_beta.  [Siegwart 2011, eq. 3.57]"""
-    return k_alpha - k_rho, -k_rho * k_beta
+def polar_linear_pull(k_rho, k_alpha, k_beta):
+    """omega = k_alpha alpha + k_beta beta already: (k_alpha, k_beta)."""
+    nothing = 0.0 * k_rho
+    return k_alpha + nothing, k_beta + nothing
 
 
-def polar_smooth_loop(k_rho, k_alpha, k_beta):
-    """Near the goal (alpha, beta) obey s^2 + k_alpha s + k_rho^2 k_beta."""
-    return k_alpha, k_rho * k_rho * k_beta
+def polar_smooth_pull(k_rho, k_alpha, k_beta):
+    """omega = (k + g) alpha - g h beta near the goal, of ``polar_smooth``."""
+    return k_alpha + k_rho, -k_rho * k_beta
+
+
+def polar_rates(k_rho, on_alpha, on_beta):
+    """Damping and stiffness of s^2 + (on_alpha - k_rho) s - k_rho on_beta near the goal.  [Siegwart 2011, eq. 3.57]
+
+    alphadot = k_rho alpha - omega, betadot = -k_rho alpha, omega = on_alpha alpha + on_beta beta.
+    """
+    return on_alpha - k_rho, -k_rho * on_beta
+
+
+def polar_loop(h, k_rho, on_alpha, on_beta, lead):
+    """Trace and determinant of a step of (alpha, beta) near the goal, for h k_rho < 1.
+
+    The way left shrinks by 1 - f, f = h k_rho, and the direction to the goal turns as alpha/(1 - f); ``lead`` as in
+    ``lateral_polynomial``.
+    """
+    f = h * k_rho
+    q = 1.0 / where(f < 1.0, 1.0 - f, 1.0)
+    m = 1.0 + lead * f * q
+    trace = 1.0 + q - m * h * on_alpha + (m - 1.0) * h * on_beta
+    return trace, q - m * h * on_alpha + (m - q) * h * on_beta
+
+
+def polar_margin(h, k_rho, on_alpha, on_beta, lead):
+    """Least of 1 - f, 1 - |det| and 1 + det - |trace|: above 0 where both roots are inside the unit circle."""
+    trace, det = polar_loop(h, k_rho, on_alpha, on_beta, lead)
+    return minimum(1.0 - h * k_rho, minimum(1.0 - absolute(det), 1.0 + det - absolute(trace)))
 
 
 def polar_strong(k_rho, k_alpha, k_beta):

@@ -1,0 +1,130 @@
+"""How far a shot goes along a line of sight, and what reaches a given distance on it.
+
+In the launch's own frame: the origin at the launch point, the target ahead (x > 0). A launch is a speed and its angle
+from the zenith, so that the lofted arc of a near target keeps its digits; the line of sight has such an angle too. The
+range along the line vanishes for a launch straight up and for one along the line, and has one maximum between them.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from coplanar.engine import evaluator
+from coplanar.flight.path import Path, State, by_launch, crossing
+from coplanar.flight.roots import falling_root, rising_root
+from coplanar.laws import flight as laws
+
+Row = Any
+
+_free_speed = evaluator(laws.free_speed)
+_hold_off = evaluator(laws.hold_off)
+
+FASTEST = 340.0  # log of the greatest speed [m/s] that is searched; its square is still a number
+FINE = 1e-9  # last secant step to the best angle, over the sector between the zenith and the line
+
+
+class Range(NamedTuple):
+    """Range along the line [m], its derivatives by speed [s] and angle [m/rad], and the state at its end."""
+
+    distance: Row
+    by_speed: Row
+    by_angle: Row
+    end: State
+
+
+class Sight:
+    """A line of sight from the launch point, seen under drag k and gravity g.
+
+    The crossing found last is the next one's first guess.
+    """
+
+    def __init__(self, cosine: Row, sine: Row, drag_per_mass: Row, gravity: Row) -> None:
+        self.cosine, self.sine = cosine, sine
+        self.zenith = np.arctan2(cosine, sine)
+        self._forces = drag_per_mass, gravity
+        self._theta: Row = None
+
+    def path(self, speed: Row, zenith: Row) -> Path:
+        """The launch at a speed and an angle from the zenith."""
+        return Path(speed, np.sin(zenith), np.cos(zenith), *self._forces)
+
+    def reach(self, speed: Row, zenith: Row) -> Range:
+        """The range along the line: from the launch point to where the path comes back to the line."""
+        path = self.path(speed, zenith)
+        end, _ = crossing(path, self.cosine, self.sine, 0.0, self._theta)
+        self._theta = end.theta
+        x_v, y_v, x_psi, y_psi = by_launch(path, end)
+        c, s = self.cosine, self.sine
+        # A change of the launch moves the path; the end slides along the path until it is on the line again.
+        with np.errstate(all="ignore"):
+            slide = (c * end.vx + s * end.vy) / (c * end.vy - s * end.vx)
+        return Range(
+            c * end.x + s * end.y,
+            c * x_v + s * y_v - slide * (c * y_v - s * x_v),
+            c * x_psi + s * y_psi - slide * (c * y_psi - s * x_psi),
+            end,
+        )
+
+    def farthest(self, speed: Row) -> tuple[np.ndarray, Range]:
+        """The angle from the zenith that goes farthest at this speed, and its range."""
+        best = falling_root(
+            lambda zenith: -self.reach(speed, zenith).by_angle, 0.5 * self.zenith, 0.0, self.zenith, fine=FINE
+        )
+        return best, self.reach(speed, best)
+
+    def speed_for(self, distance: Row, zenith: Row, start: Row = None) -> np.ndarray:
+        """The speed that reaches a distance at this angle; infinite where it is beyond exp(``FASTEST``) m/s.
+
+        The range rises with the speed, like v^2 at first and like log v in the end: Newton in log v.
+        """
+        k, g = self._forces
+        free = np.log(_free_speed(distance, self.cosine, np.sin(zenith), np.sin(self.zenith - zenith), g))
+        guess = free + _hold_off(k * distance) if start is None else np.log(start)
+
+        def beyond(log_speed: np.ndarray) -> tuple[Row, Row]:
+            speed = np.exp(log_speed)
+            now = self.reach(speed, zenith)
+            with np.errstate(all="ignore"):
+                return np.log(now.distance / distance), speed * now.by_speed / now.distance
+
+        found = rising_root(beyond, np.clip(guess, free, FASTEST), np.minimum(free, FASTEST), FASTEST, longest=20.0)
+        return np.where(found < FASTEST, np.exp(found), np.inf)
+
+    def least(self, distance: Row) -> tuple[np.ndarray, np.ndarray]:
+        """The least speed that reaches a distance, and its angle from the zenith: where more angle brings no range."""
+        speed: Row = None
+
+        def surplus(zenith: np.ndarray) -> Row:
+            nonlocal speed
+            speed = self.speed_for(distance, zenith, speed)
+            return -self.reach(speed, zenith).by_angle
+
+        zenith = falling_root(surplus, 0.5 * self.zenith, 0.0, self.zenith, fine=FINE)
+        return self.speed_for(distance, zenith, speed), zenith
+
+    def both(self, distance: Row, speed: Row) -> tuple[np.ndarray, np.ndarray, np.ndarray, Row]:
+        """Low arc, lofted arc and the best angle, all from the zenith, and the farthest range, for a speed.
+
+        The two arcs are searched on either side of the best angle, where the range is monotone. Near the greatest range
+        they merge like its square root: Newton runs on the root of what is missing to it. Beyond it, both are the best.
+        """
+        best, top = self.farthest(speed)
+        most = top.distance
+        gap = np.sqrt(np.maximum(most - distance, 0.0))
+        part = 1.0 - np.sqrt(np.maximum(1.0 - distance / most, 0.0))
+
+        def long(zenith: np.ndarray, sign: float) -> tuple[Row, Row]:
+            now = self.reach(speed, zenith)
+            root = np.sqrt(np.maximum(most - now.distance, 0.0))
+            with np.errstate(all="ignore"):
+                slope = sign * now.by_angle * np.where(root > 0.0, 0.5 * (root + gap) / root, 1.0)
+            return np.where(gap > 0.0, now.distance - distance, 0.0), slope
+
+        self._theta = None
+        above = self.zenith - best
+        low = rising_root(lambda a: long(self.zenith - a, 1.0), part * above, 0.0, above)
+        self._theta = None
+        high = rising_root(lambda z: long(z, -1.0), part * best, 0.0, best)
+        return self.zenith - low, high, best, most
