@@ -35,64 +35,21 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _HOMES = {
-    "arms": ("Arm",),
-    "control": (
-        "PointTracker",
-        "PolarController",
-        "Unicycle",
-    ),
-    "curves": (
-        "Astroid",
-        "Circle",
-        "Ellipse",
-        "FreeCurve",
-        "Lemniscate",
-        "Line",
-        "Polyline",
-        "Spline",
-    ),
-    "errors": (
-        "CoplanarError",
-        "InvalidInput",
-        "NoSolution",
-    ),
-    "flight": ("Projectile",),
-    "frames": (
-        "FrameTree",
-        "coordinates",
-        "from_coordinates",
-    ),
-    "integrators": ("integrate_ode",),
-    "motion": (
-        "DrivingHistory",
-        "HolonomicMotion",
-        "Odometry",
-        "OdometryNoise",
-        "Program",
-        "Projectile",
-        "Ramp",
-        "Segment",
-        "Trapezoid",
-    ),
-    "run": ("Run",),
-    "se2": (
-        "Displacement",
-        "Pose",
-        "Twist",
-        "unwrap_angles",
-        "wrap_angle",
-    ),
-    "simulate": ("simulate",),
-    "tracing": ("trace",),
-    "wheels": (
-        "Icr",
-        "RollingWheel",
-        "Wheel",
-        "WheeledBase",
-        "identify_wiring",
-    ),
+    "arms": "Arm",
+    "control": "PointTracker PolarController Unicycle",
+    "curves": "Astroid Circle Ellipse FreeCurve Lemniscate Line Polyline Spline",
+    "errors": "CoplanarError InvalidInput NoSolution",
+    "flight": "Projectile",
+    "frames": "FrameTree coordinates from_coordinates",
+    "integrators": "integrate_ode",
+    "motion": "DrivingHistory HolonomicMotion Odometry OdometryNoise Program Ramp Segment Trapezoid",
+    "run": "Run",
+    "se2": "Displacement Pose Twist unwrap_angles wrap_angle",
+    "simulate": "simulate",
+    "tracing": "trace",
+    "wheels": "Icr RollingWheel Wheel WheeledBase identify_wiring",
 }
-_HOME = {name: home for home, names in _HOMES.items() for name in names}
+_HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 
 __all__ = [
     "Arm",

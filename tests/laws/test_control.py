@@ -14,6 +14,7 @@ from coplanar.control import Limits, PointTracker, PolarController, Unicycle
 from coplanar.control.stability import loop_poles, moving_poles
 from coplanar.engine import evaluator
 from coplanar.laws import control as laws
+from coplanar.laws import polar
 
 SHAPES = [(), (1,), (3, 1, 2)]
 angle = st.floats(-7.0, 7.0)
@@ -118,11 +119,20 @@ def test_schur_cohn_is_positive_inside_the_unit_circle_only(roots):
 
 
 @settings(deadline=None, max_examples=40)
-@given(gain, st.floats(-0.95, 0.95), st.sampled_from([0.0, 1.0, 50.0, 2000.0]), st.sampled_from([0.0, 0.3, 2.0]))
+@given(
+    st.floats(5.0, 200.0),
+    st.floats(-0.9, 0.95),
+    st.sampled_from([0.0, 1.0, 50.0, 500.0]),
+    st.sampled_from([0.0, 0.3, 2.0]),
+)
 def test_largest_step_is_where_a_pole_leaves(kp, kd, ki, speed):
     for method in ("euler", "exact"):
         tracker = PointTracker((0.05, 0.0), kp, kd, ki)
         edge = tracker.stability(0.01, method=method, speed=speed).largest_step
+        if edge == 0.0:  # the integral is too much for the moving loop, however fast it samples
+            margins = [tracker.stability(h, method=method, speed=speed).margin for h in (1e-4, 1e-3, 1e-2)]
+            assert max(margins) < 0.0 < ki * speed
+            continue
         below = tracker.stability(0.999 * edge, method=method, speed=speed)
         above = tracker.stability(1.001 * edge, method=method, speed=speed)
         assert below.margin > 0.0 > above.margin
@@ -192,7 +202,7 @@ def test_limits_hold_and_scaling_keeps_the_curvature(v, omega, v_max, omega_max,
 @given(angle, rate, rate, angle, rate, rate)
 def test_polar_coordinates_find_the_goal(theta, x, y, gtheta, gx, gy):
     assume(math.hypot(gx - x, gy - y) > 1e-6)
-    rho, alpha, beta = evaluator(laws.polar_coordinates)(x, y, theta, gx, gy, gtheta)
+    rho, alpha, beta = evaluator(polar.polar_coordinates)(x, y, theta, gx, gy, gtheta)
     assert x + rho * math.cos(theta + alpha) == pytest.approx(gx, abs=1e-9)
     assert y + rho * math.sin(theta + alpha) == pytest.approx(gy, abs=1e-9)
     assert math.cos(theta + alpha + beta - gtheta) == pytest.approx(1.0)
@@ -210,7 +220,7 @@ def test_polar_poles_are_those_of_a_step(form, method, h):
         start = (-0.5 * math.cos(towards), -0.5 * math.sin(towards), towards - alpha)
         command, _, _ = controller.respond(start, (0.0, 0.0, 0.0), (1.0,), h)
         moved = Unicycle().advance(start, command, h, method=method)
-        return np.array(evaluator(laws.polar_coordinates)(*moved, 0.0, 0.0, 0.0)[1:])
+        return np.array(evaluator(polar.polar_coordinates)(*moved, 0.0, 0.0, 0.0)[1:])
 
     J = np.stack([(after(small, 0.0) - after(-small, 0.0)), (after(0.0, small) - after(0.0, -small))], -1) / (2 * small)
     ours = np.poly(controller.stability(h, method=method).poles)

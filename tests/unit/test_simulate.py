@@ -124,6 +124,11 @@ def test_many_targets():
     tracker = PointTracker((0.1, 0.0), kp=5.0)
     start = Pose(np.zeros(3), np.zeros(3), 0.0)
     run = simulate(Unicycle(), tracker, HeldPoint(goals), duration=5.0, step=0.02, method="exact", start=start)
+    same = simulate(Unicycle(), tracker, HeldPoint(goals), duration=5.0, step=0.02, method="exact", start=Pose())
+    np.testing.assert_array_equal(same.states, run.states)
+    limits, still = Limits(v=[0.1, 0.2]), HeldPoint(goals[0])
+    slow = simulate(Unicycle(), tracker, still, duration=1.0, step=0.02, limits=limits, start=Pose())
+    np.testing.assert_allclose(np.abs(slow["v"]).max(0), [0.1, 0.2])
     ends = np.stack(run.robot(slice(None)).poses[-1].act(0.1, 0.0), axis=-1)
     np.testing.assert_allclose(ends, goals, atol=1e-6)
 
@@ -215,3 +220,11 @@ def test_the_astroid_cusps_keep_the_error_small():
     assert size.max() < 0.005
     lag = simulate(Unicycle(), PointTracker((0.05, 0.0), kp=50.0), ASTROID, step=0.01, method="exact")
     assert np.hypot(lag["ex"], lag["ey"]).max() == pytest.approx(1.5 * 2.0 * math.pi / 10.0 / 50.0, rel=0.02)
+
+
+def test_a_large_batch_in_the_compiled_loop():
+    kp = np.linspace(5.0, 90.0, 210)
+    many = simulate(Unicycle(), PointTracker((0.1, 0.0), kp), ASTROID, step=0.01, duration=1.0)
+    for i in (0, 100, 209):
+        alone = simulate(Unicycle(), PointTracker((0.1, 0.0), float(kp[i])), ASTROID, step=0.01, duration=1.0)
+        np.testing.assert_allclose(many.robot(i).states, alone.states, atol=1e-12)

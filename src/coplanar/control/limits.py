@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from coplanar import checks
 from coplanar.checks import Real
 from coplanar.control.unicycle import Command
@@ -57,6 +59,13 @@ class Limits:
                 object.__setattr__(self, name, checks.frozen(checks.positive(name, value)))
         if self.rim is not math.inf and self.half_track is None:
             raise InvalidValue("half_track", None, "half the distance between the wheels when rim is limited")
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The leading shape of the limits, () for numbers."""
+        return np.broadcast_shapes(
+            *(np.shape(v) for v in (self.v, self.omega, self.rim, self.acceleration, self.turn_acceleration))
+        )
 
     def apply(self, command: Command, last: Command = (0.0, 0.0), step: Real = math.inf) -> Command:
         """The command within the limits.

@@ -15,7 +15,7 @@ from coplanar.control.stability import StabilityReport, first_exit, judge, quadr
 from coplanar.control.unicycle import Command, State, lead_of
 from coplanar.engine import evaluator
 from coplanar.errors import InvalidValue
-from coplanar.laws import control as laws
+from coplanar.laws import polar as laws
 from coplanar.se2 import Pose
 
 _coordinates = evaluator(laws.polar_coordinates)

@@ -19,6 +19,7 @@ _pid_polynomial = evaluator(laws.pid_polynomial)
 _lateral_polynomial = evaluator(laws.lateral_polynomial)
 _lateral_margin = evaluator(laws.lateral_margin)
 _largest_step = evaluator(laws.largest_step)
+NO_STEP = 1e-9  # of the highest step: a loop that is not stable above this is stable for no step
 
 
 class Stability(Enum):
@@ -120,7 +121,7 @@ def stable_below(gains: tuple[Real, Real, Real], px: Real, speed: Real, lead: fl
 
 
 def first_exit(margin: Callable[[Real], Real], highest: Real, *, samples: int = 256) -> Real:
-    """The smallest step at which a margin is no longer above 0 [s], or the highest.
+    """The smallest step at which a margin is no longer above 0 [s], or the highest; 0 if it never is above.
 
     The first of ``samples`` even steps up to the highest at which it is not, refined by bisection to the last bit.
     """
@@ -134,7 +135,7 @@ def first_exit(margin: Callable[[Real], Real], highest: Real, *, samples: int = 
         middle = 0.5 * (low + high)
         beyond = np.less_equal(margin(middle), 0.0)
         low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
-    step = np.where(out.any(0), high, top)
+    step = np.where(out.any(0), np.where(high < NO_STEP * top, 0.0, high), top)
     return float(step) if not shape else step
 
 

@@ -6,9 +6,9 @@ from math import pi
 from typing import Any
 
 import numpy as np
-from coplanar.flight import Projectile, Shot
 
 from coplanar.checks import Real
+from coplanar.flight import Projectile, Shot
 from coplanar.viz.axes import Axes, axes_or_new, plane
 
 

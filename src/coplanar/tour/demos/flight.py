@@ -7,13 +7,16 @@ from typing import Any
 
 import numpy as np
 
+from coplanar.engine import evaluator
 from coplanar.flight import Aim, Projectile, Shot
 from coplanar.integrators import integrate_ode
-from coplanar.laws.flight import drag_rates
+from coplanar.laws import flight as laws
 from coplanar.tour.demo import Demo
 from coplanar.viz.axes import plane, plot_series
 from coplanar.viz.flight import plot_envelope, plot_shot
 from coplanar.viz.scene import Scene
+
+_drag_rates = evaluator(laws.drag_rates)
 
 
 def shot() -> Demo:
@@ -110,7 +113,7 @@ def _flown(launch: Shot, time: np.ndarray) -> np.ndarray:
     ball = launch.projectile
 
     def rates(_: float, state: np.ndarray) -> np.ndarray:
-        ax, ay = drag_rates(state[2], state[3], ball.drag_per_mass, ball.gravity)
+        ax, ay = _drag_rates(state[2], state[3], ball.drag_per_mass, ball.gravity)
         return np.array([state[2], state[3], ax, ay])
 
     first = (*launch.start, *launch.velocity)
