@@ -75,43 +75,57 @@ class Limits:
         return max(traffic, arithmetic)
 
 
-def machine_limits(quick: bool) -> Limits:
-    """Measure them."""
+def machine_limits(before: Limits | None = None) -> Limits:
+    """Measure them, and keep the best of this and of before: others may be at work on the machine."""
+    now = Limits(_bandwidths(), _costs(), _call())
+    if before is None:
+        return now
+    return Limits(
+        {n: max(rate, before.bandwidth[n]) for n, rate in now.bandwidth.items()},
+        {name: min(ns, before.cost[name]) for name, ns in now.cost.items()},
+        min(now.call, before.call),
+    )
+
+
+def _bandwidths() -> dict[int, float]:
     from benchmarks.measure import threads
 
-    repeats = 3 if quick else 9
-    bandwidth = {}
     b, c = np.linspace(0.0, 1.0, STREAM_ROWS), np.linspace(1.0, 2.0, STREAM_ROWS)
-    out = (np.empty(STREAM_ROWS),)
-    stream = evaluator(triad)
+    out, rates, stream = (np.empty(STREAM_ROWS),), {}, evaluator(triad)
     for count in (1, 2):
         with threads(count):
-            ns = _per_row(lambda: stream.on_compiled(b, c, 3.0, out=out), STREAM_ROWS, 1, repeats)
-        bandwidth[count] = max(32.0 / ns, bandwidth.get(1, 0.0))  # the second core may be busy with something else
-    with threads(1):
-        laws = (only_sincos, only_atan2, only_sqrt, only_exp, only_log)
-        cost = {law.__name__.removeprefix("only_"): _cost(law, repeats) for law in laws}
-    pack = struct.Struct("6d").pack
-    call = _per_row(lambda: pack(1.0, 2.0, 3.0, 0.1, 0.2, 0.3), 1, 20_000, repeats)
-    return Limits(bandwidth, cost, call)
+            ns = _fastest(lambda: stream.on_compiled(b, c, 3.0, out=out), 1, 5) / STREAM_ROWS
+        rates[count] = max(32.0 / ns, rates.get(1, 0.0))  # the second core may be busy with something else
+    return rates
 
 
-def _cost(law: Any, repeats: int) -> float:
+def _costs() -> dict[str, float]:
     """Of a row in cache: what more rows take, so that the price of a call is not in it."""
+    from benchmarks.measure import threads
+
     x, y = np.linspace(-3.0, 3.0, CACHE_ROWS), np.linspace(1.0, 2.0, CACHE_ROWS)
-    out, short = (np.empty(CACHE_ROWS),), (np.empty(8),)
-    run = evaluator(law)
-    whole = _per_row(lambda: run.on_compiled(x, y, out=out), 1, 200, repeats)
-    start = _per_row(lambda: run.on_compiled(x[:8], y[:8], out=short), 1, 200, repeats)
-    return max(whole - start, 0.0) / (CACHE_ROWS - 8)
+    out, short, costs = (np.empty(CACHE_ROWS),), (np.empty(8),), {}
+    with threads(1):
+        for law in (only_sincos, only_atan2, only_sqrt, only_exp, only_log):
+            run = evaluator(law).on_compiled
+            whole = _fastest(lambda run=run: run(x, y, out=out), 20, 20)
+            start = _fastest(lambda run=run: run(x[:8], y[:8], out=short), 20, 20)
+            costs[law.__name__.removeprefix("only_")] = max(whole - start, 0.1 * whole) / CACHE_ROWS
+    return costs
 
 
-def _per_row(call: Callable[[], Any], rows: int, calls: int, repeats: int) -> float:
+def _call() -> float:
+    pack = struct.Struct("6d").pack
+    return _fastest(lambda: pack(1.0, 2.0, 3.0, 0.1, 0.2, 0.3), 5000, 10)
+
+
+def _fastest(call: Callable[[], Any], calls: int, repeats: int) -> float:
+    """The fastest repeat [ns a call]: a limit is what the machine can do when nobody else is at it."""
     call()
     times = []
     for _ in range(repeats):
         start = time.perf_counter()
         for _ in range(calls):
             call()
-        times.append((time.perf_counter() - start) / (calls * rows) * 1e9)
-    return min(times)  # a limit is what the machine can do when nobody else is at it
+        times.append((time.perf_counter() - start) / calls * 1e9)
+    return min(times)

@@ -111,16 +111,27 @@ class Timing:
 
 @dataclass(slots=True)
 class Result:
-    """A measured workload: timings, peers that are absent with the reason, and the limit by threads [ns]."""
+    """A measured workload: its inputs, the timings, and peers that are absent with the reason."""
 
     workload: Workload
+    data: Any
     timings: list[Timing]
     absent: dict[str, str]
-    limits: dict[int, float]
 
-    def best(self, ours: bool) -> Timing | None:
-        """The fastest of ours, or of the others."""
-        timed = [t for t in self.timings if t.rounds and t.contender.ours == ours]
+    def limit(self, limits: Limits, count: int | None) -> float:
+        """The limit on so many threads [ns]."""
+        return self.workload.floor(limits, count or 1, self.data)
+
+    @property
+    def headline(self) -> list[Timing]:
+        """Coplanar's first contender, the public way, on each number of threads."""
+        first = self.timings[0].contender.name
+        return [t for t in self.timings if t.contender.ours and t.contender.name == first]
+
+    @property
+    def best_peer(self) -> Timing | None:
+        """The fastest of the others whose answers agree."""
+        timed = [t for t in self.timings if t.rounds and not t.contender.ours]
         return min(timed, key=lambda t: t.median, default=None)
 
 
@@ -142,16 +153,13 @@ def ratio(a: Timing, b: Timing) -> float:
     return statistics.median(p / q for p, q in zip(a.rounds, b.rounds, strict=True))
 
 
-def measure(workload: Workload, limits: Limits, effort: Effort) -> Result:
+def measure(workload: Workload, effort: Effort) -> Result:
     """Build, compare, time."""
-    rows = workload.rows[effort.quick]
-    data = workload.prepare(rows)
+    data = workload.prepare(workload.rows[effort.quick])
     contenders, absent = _build(workload, data)
     timings = _compare(workload, contenders, data, effort)
     _time([t for t in timings if not t.problem], effort)
-    most = max((t for t in workload.threads if t), default=1)
-    floors = {n: workload.floor(limits, n, data) for n in range(1, most + 1)}
-    return Result(workload, timings, absent, floors)
+    return Result(workload, data, timings, absent)
 
 
 def _build(workload: Workload, data: Any) -> tuple[list[Contender], dict[str, str]]:

@@ -65,3 +65,28 @@ def chain(links: Any, *q: Any) -> list[Any]:
     across = [-sum(ys[i:]) for i in range(n)]
     ahead = [sum(xs[i:]) for i in range(n)]
     return [sum(xs), sum(ys), angles[-1], *across, *ahead, *([mpf(1)] * n)]
+
+
+def impact(speed: Any, angle: Any, k: Any, g: Any) -> tuple[Any, Any]:
+    """Distance and time at which a shot under drag is back at its level: the hodograph in s = asinh(tan psi)."""
+    with mp.workdps(30):
+        s0 = mp.asinh(mp.tan(angle))
+        u0 = speed * mp.cos(angle)
+
+        def u(s: Any) -> Any:
+            fallen = mp.sinh(s0) * mp.cosh(s0) + s0 - mp.sinh(s) * mp.cosh(s) - s
+            return 1 / mp.sqrt(1 / u0**2 + k / g * fallen)
+
+        def height(s: Any) -> Any:
+            return mp.quad(lambda p: u(p) ** 2 * mp.sinh(2 * p), mp.linspace(s, s0, 5)) / (2 * g)
+
+        end = mp.findroot(height, (-s0, -1.3 * s0), tol=1e-25)
+        pieces = mp.linspace(end, s0, 5)
+        x = mp.quad(lambda p: u(p) ** 2 * mp.cosh(p), pieces) / g
+        return x, mp.quad(lambda p: u(p) * mp.cosh(p), pieces) / g
+
+
+def low_angle(distance: Any, guess: Any, speed: Any, k: Any, g: Any) -> Any:
+    """The launch angle near a guess that lands at a distance."""
+    with mp.workdps(25):
+        return mp.findroot(lambda angle: impact(speed, angle, k, g)[0] - distance, (guess, guess * 1.001), tol=1e-20)
