@@ -54,8 +54,8 @@ class Start:
 
 def start_up(effort: Effort) -> tuple[list[Start], list[Start]]:
     """Imports, and first calls."""
-    rounds = 3 if effort.quick else 5
-    names = dict(list(IMPORTS.items())[: 7 if effort.quick else None])
+    rounds = 2 if effort.quick else 5
+    names = dict(list(IMPORTS.items())[: 4 if effort.quick else None])
     times: dict[str, list[float]] = {name: [] for name in names}
     problems: dict[str, str] = {}
     for _ in range(rounds):
@@ -66,7 +66,7 @@ def start_up(effort: Effort) -> tuple[list[Start], list[Start]]:
             else:
                 times[name].append(float(answer.stdout.split()[-1]))
     imports = [Start(n, statistics.median(t) if t else float("nan"), problems.get(n, "")) for n, t in times.items()]
-    return imports, _first_calls(2 if effort.quick else 3)
+    return imports, _first_calls(1 if effort.quick else 3)
 
 
 def _first_calls(rounds: int) -> list[Start]:

@@ -53,13 +53,20 @@ class Limits:
 
     Attributes:
         bandwidth: Memory traffic by number of threads, write-allocate included [B/ns].
-        cost: Nanoseconds of one primitive in one lane, by name, on one thread.
+        block: A call of each primitive on ``CACHE_ROWS`` rows, one thread [ns].
+        empty: The same call on next to no rows [ns].
         call: One call of a C function with six Python floats [ns].
     """
 
     bandwidth: dict[int, float]
-    cost: dict[str, float]
+    block: dict[str, float]
+    empty: dict[str, float]
     call: float
+
+    @property
+    def cost(self) -> dict[str, float]:
+        """Nanoseconds of a row of each primitive on one thread: what more rows take, without the price of a call."""
+        return {name: (ns - self.empty[name]) / CACHE_ROWS for name, ns in self.block.items()}
 
     def floor(self, threads: int, *, read: int, written: int, **primitives: float) -> float:
         """The larger of the traffic and the arithmetic of a row [ns].
@@ -77,12 +84,13 @@ class Limits:
 
 def machine_limits(before: Limits | None = None) -> Limits:
     """Measure them, and keep the best of this and of before: others may be at work on the machine."""
-    now = Limits(_bandwidths(), _costs(), _call())
+    now = Limits(_bandwidths(), *_costs(), _call())
     if before is None:
         return now
     return Limits(
         {n: max(rate, before.bandwidth[n]) for n, rate in now.bandwidth.items()},
-        {name: min(ns, before.cost[name]) for name, ns in now.cost.items()},
+        {name: min(ns, before.block[name]) for name, ns in now.block.items()},
+        {name: min(ns, before.empty[name]) for name, ns in now.empty.items()},
         min(now.call, before.call),
     )
 
@@ -99,19 +107,19 @@ def _bandwidths() -> dict[int, float]:
     return rates
 
 
-def _costs() -> dict[str, float]:
-    """Of a row in cache: what more rows take, so that the price of a call is not in it."""
+def _costs() -> tuple[dict[str, float], dict[str, float]]:
+    """A call on a block of rows in cache, and on next to none, for each primitive."""
     from benchmarks.measure import threads
 
     x, y = np.linspace(-3.0, 3.0, CACHE_ROWS), np.linspace(1.0, 2.0, CACHE_ROWS)
-    out, short, costs = (np.empty(CACHE_ROWS),), (np.empty(8),), {}
+    out, short = (np.empty(CACHE_ROWS),), (np.empty(8),)
+    block, empty = {}, {}
     with threads(1):
         for law in (only_sincos, only_atan2, only_sqrt, only_exp, only_log):
-            run = evaluator(law).on_compiled
-            whole = _fastest(lambda run=run: run(x, y, out=out), 20, 20)
-            start = _fastest(lambda run=run: run(x[:8], y[:8], out=short), 20, 20)
-            costs[law.__name__.removeprefix("only_")] = max(whole - start, 0.1 * whole) / CACHE_ROWS
-    return costs
+            run, name = evaluator(law).on_compiled, law.__name__.removeprefix("only_")
+            block[name] = _fastest(lambda run=run: run(x, y, out=out), 5, 40)
+            empty[name] = _fastest(lambda run=run: run(x[:8], y[:8], out=short), 5, 40)
+    return block, empty
 
 
 def _call() -> float:

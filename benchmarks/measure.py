@@ -34,6 +34,7 @@ class Contender:
         threads: How many threads it may use; None where it runs as it comes.
         slack: How far its answers may lie from ours and still count as the same work; the workload's where None.
         note: What is different about it.
+        counts: Whether it may be the best peer; one that loses digits is timed all the same.
     """
 
     name: str
@@ -44,6 +45,7 @@ class Contender:
     threads: int | None = None
     slack: float | None = None
     note: str = ""
+    counts: bool = True
 
 
 Builder = Callable[[Any], Contender]
@@ -131,7 +133,7 @@ class Result:
     @property
     def best_peer(self) -> Timing | None:
         """The fastest of the others whose answers agree."""
-        timed = [t for t in self.timings if t.rounds and not t.contender.ours]
+        timed = [t for t in self.timings if t.rounds and not t.contender.ours and t.contender.counts]
         return min(timed, key=lambda t: t.median, default=None)
 
 

@@ -127,11 +127,13 @@ def misses(findings: Findings) -> list[str]:
 def sizes(findings: Findings) -> list[str]:
     """Cost against size."""
     head = ("law", "rows", "NumPy text", "compiled", "picked", "picked/faster", "public method", "a row")
-    return table(head, [
-        [row.law, f"10^{len(str(row.rows)) - 1}", *(duration(1e9 * row.seconds[k]) for k in ("text", "compiled", "picked")),
-         times(row.excess), duration(1e9 * row.seconds["object"]), duration(1e9 * row.seconds["object"] / row.rows)]
-        for row in findings.sizes
-    ])  # fmt: skip
+    return table(head, [_size_row(row) for row in findings.sizes])
+
+
+def _size_row(row: Row) -> list[str]:
+    text, compiled, picked, whole = (1e9 * row.seconds[k] for k in ("text", "compiled", "picked", "object"))
+    ways = [duration(text), duration(compiled), duration(picked), times(row.excess)]
+    return [row.law, f"10^{len(str(row.rows)) - 1}", *ways, duration(whole), duration(whole / row.rows)]
 
 
 def starts(lines: list[Start]) -> list[str]:
@@ -226,7 +228,7 @@ SIZES = (
 )
 STARTS = "Each in a fresh process. Small batches never wait for a compiler; the disk cache is kept for each user."
 MEMORY = (
-    "A fresh process for each. Outputs are what the answer holds; the peak is the most that Python and NumPy had on top "
-    "of the inputs; resident is how far the process's highest resident size rose."
+    "A fresh process for each. Outputs are what the answer holds; the peak is the most that Python and NumPy had on "
+    "top of the inputs; resident is how far the process's highest resident size rose."
 )
 ULPS = "Worst error in units of the last place of the true value, over random arguments."

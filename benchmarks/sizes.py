@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import statistics
 import time
 from collections.abc import Callable
@@ -22,16 +23,24 @@ LONGEST = {False: 2.0, True: 0.1}  # [s] of a single call; beyond, the size is l
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One law at one size: seconds a call by name, NaN where it was left out."""
+    """One law at one size: seconds a call in every round by name, none where it was left out."""
 
     law: str
     rows: int
-    seconds: dict[str, float]
+    rounds: dict[str, list[float]]
+
+    @property
+    def seconds(self) -> dict[str, float]:
+        """Median of the rounds, NaN where it was left out."""
+        return {name: statistics.median(times) if times else math.nan for name, times in self.rounds.items()}
 
     @property
     def excess(self) -> float:
-        """What the engine's pick takes over the faster of text and compiled."""
-        return self.seconds["picked"] / np.nanmin([self.seconds["text"], self.seconds["compiled"]])
+        """What the engine's pick takes over the faster of text and compiled: the median of the ratios by round."""
+        others = [times for name, times in self.rounds.items() if name in ("text", "compiled") and times]
+        return max(
+            statistics.median(p / q for p, q in zip(self.rounds["picked"], times, strict=True)) for times in others
+        )
 
 
 def cost_against_size(effort: Effort) -> list[Row]:
@@ -41,14 +50,15 @@ def cost_against_size(effort: Effort) -> list[Row]:
         known: dict[str, float] = {}
         for power in range(6 if effort.quick else 8):
             calls = prepare(10**power)
-            small = {k: c for k, c in calls.items() if 10.0 * known.get(k, 0.0) < LONGEST[effort.quick]}
-            known = _seconds(small, effort)
-            table.append(Row(name, 10**power, {k: known.get(k, float("nan")) for k in calls}))
+            small = {k: c for k, c in calls.items() if not 10.0 * known.get(k, 0.0) > LONGEST[effort.quick]}
+            rounds = _rounds(small, effort)
+            table.append(Row(name, 10**power, {k: rounds.get(k, []) for k in calls}))
+            known = table[-1].seconds
     return table
 
 
-def _seconds(calls: dict[str, Callable[[], Any]], effort: Effort) -> dict[str, float]:
-    """Interleaved; the median of the rounds."""
+def _rounds(calls: dict[str, Callable[[], Any]], effort: Effort) -> dict[str, list[float]]:
+    """Interleaved."""
     counts = {}
     for name, call in calls.items():
         call()
@@ -62,7 +72,7 @@ def _seconds(calls: dict[str, Callable[[], Any]], effort: Effort) -> dict[str, f
             for _ in range(counts[name]):
                 call()
             rounds[name].append((time.perf_counter() - start) / counts[name])
-    return {name: statistics.median(times) for name, times in rounds.items()}
+    return rounds
 
 
 def _ways(law: Any, arguments: Any, whole: Callable[[], Any]) -> dict[str, Callable[[], Any]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 from typing import Any, NamedTuple
 
@@ -99,6 +100,7 @@ def solve_ivp_loop(data: Shots) -> Contender:
 def ballisticcalc() -> tuple[Any, Any, Any, Any]:
     """py-ballisticcalc with a drag coefficient that makes k = DRAG, its Cython engine, and its parts."""
     module = load("py_ballisticcalc")
+    logging.getLogger("py_balcalc").setLevel(logging.WARNING)
     config = {"cGravityConstant": -GRAVITY / FOOT, "cMinimumVelocity": 0.0, "cMaximumDrop": -1.0}
     calculator = module.Calculator(config=config, engine="cythonized_rk4_engine")
     air = module.Atmo.icao()
@@ -215,7 +217,7 @@ IMPACT = Workload(
 )  # fmt: skip
 
 AIM = Workload(
-    "aim", "aim at a speed, both arcs", "target", aims, (400, 40), (batch_aim, one_aim),
+    "aim", "aim at a speed, both arcs", "target", aims, (400, 20), (batch_aim, one_aim),
     {"SciPy": brentq_loop, "py-ballisticcalc": ballisticcalc_aim, "ballistic-solver": ballistic_solver_loop},
     aim_floor, {1: 1500.0}, 1e-9, aimed, (4, 1),
 )  # fmt: skip
