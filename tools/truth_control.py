@@ -1,15 +1,16 @@
-"""Make tests/truth/control.json: curves, poles and closed loops by mpmath, to 50 digits.
+"""Golden curves, poles and closed loops by mpmath, to 50 digits.
 
-Run from the root of the project: python tools/truth_control.py
+Derivatives of curves are differenced, poles are roots of polynomials, and the loop is the algorithm written out: solve
+A [v, omega] = kp e + kd edot + ki int e, then a Runge-Kutta step in full, or the chord of the arc.
 """
 
-import json
-from pathlib import Path
+from __future__ import annotations
 
 import mpmath as mp
 
+from golden import write
+
 mp.mp.dps = 50
-TARGET = Path(__file__).parent.parent / "tests" / "truth" / "control.json"
 
 CURVES = {
     "circle": ([0.7], lambda u, r: (r * mp.cos(u), r * mp.sin(u))),
@@ -111,19 +112,14 @@ def floats(values):
     return [floats(v) for v in values] if isinstance(values, list) else float(values)
 
 
-TARGET.write_text(
-    json.dumps(
-        {
-            "generator": "tools/truth_control.py",
-            "versions": {"mpmath": mp.__version__},
-            "digits": mp.mp.dps,
-            "tolerance": {"curves": 1e-14, "poles": 1e-12, "loops": 1e-9},
-            "curves": list(curves()),
-            "poles": list(poles()),
-            "loops": [case | {"rows": list(loop(**case))} for case in LOOPS],
-        },
-        indent=1,
-    )
-    + "\n",
-    encoding="utf-8",
+write(
+    __file__,
+    [
+        *({"kind": "curve", **case} for case in curves()),
+        *({"kind": "poles", **case} for case in poles()),
+        *({"kind": "loop", **case, "rows": list(loop(**case))} for case in LOOPS),
+    ],
+    packages=["mpmath"],
+    tolerance={"curve": 1e-14, "poles": 1e-12, "loop": 1e-9},
+    unit="m, rad, s",
 )

@@ -43,7 +43,7 @@ def test_a_float64_array_is_not_copied_until_it_is_kept():
         np.array([1.0, None]), 10**400, lambda: 1.0,
         np.ma.masked_array([1.0, 2.0], [False, True]),
     ],
-    ids=repr,
+    ids=lambda value: type(value).__name__,
 )  # fmt: skip
 def test_what_is_no_real_number_is_refused_by_name(check, value):
     with pytest.raises(InvalidValue, match=r"^gain = .*: needed real numbers .*; give it in metres$"):

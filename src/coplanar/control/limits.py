@@ -13,8 +13,9 @@ from coplanar.control.unicycle import Command
 from coplanar.engine import evaluator
 from coplanar.errors import InvalidValue
 from coplanar.laws import control as laws
+from coplanar.laws import wheels
 
-_clipped = evaluator(laws.clipped)
+_clipped = evaluator(wheels.clipped)
 _rims = {
     "scale": evaluator(laws.rims_scaled),
     "clip": evaluator(laws.rims_clipped),

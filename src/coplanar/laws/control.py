@@ -10,8 +10,9 @@ Application of the z-Transform Method.
 """
 
 from coplanar.engine import absolute, copysign, maximum, minimum, sincos, sqrt, where
-from coplanar.laws.motion import arc, unicycle_rates
+from coplanar.laws.motion import arc, euler
 from coplanar.laws.se2 import act, rotate
+from coplanar.laws.wheels import clipped, differential_forward, differential_inverse
 
 
 def unicycle_step(x, y, theta, v, omega, h, at_start, at_middle, at_end):
@@ -65,12 +66,12 @@ def track_point(x, y, theta, rx, ry, fx, fy, last_x, last_y, sum_x, sum_y, px, p
 
 
 def tracking_euler(x, y, theta, v, omega, last_x, last_y, sum_x, sum_y, rx, ry, fx, fy, h, px, py, kp, kd, ki):
-    """``track_point``, then an Euler step of ``unicycle_rates``: one turn of the closed loop."""
+    """``track_point``, then an Euler step: one turn of the closed loop."""
     v, omega, ex, ey, sum_x, sum_y = track_point(
         x, y, theta, rx, ry, fx, fy, last_x, last_y, sum_x, sum_y, px, py, kp, kd, ki, h
     )
-    dx, dy, dtheta = unicycle_rates(theta, v, omega)
-    return x + h * dx, y + h * dy, theta + h * dtheta, v, omega, ex, ey, sum_x, sum_y
+    x, y, theta = euler(x, y, theta, v, omega, h)
+    return x, y, theta, v, omega, ex, ey, sum_x, sum_y
 
 
 def tracking_step(
@@ -202,21 +203,6 @@ def scaled(v, omega, v_max, omega_max):
     return v / excess, omega / excess
 
 
-def clipped(u, u_max):
-    """u in [-u_max, u_max]."""
-    return minimum(maximum(u, -u_max), u_max)
-
-
-def rims(v, omega, half_track):
-    """Rim speeds of the two wheels, (v - b omega, v + b omega) as (left, right)."""
-    return v - half_track * omega, v + half_track * omega
-
-
-def from_rims(left, right, half_track):
-    """v = (left + right)/2, omega = (right - left)/(2 b)."""
-    return 0.5 * (left + right), 0.5 * (right - left) / half_track
-
-
 def rims_scaled(v, omega, half_track, rim_max):
     """(v, omega) divided by the excess of the faster rim: the curvature stays."""
     excess = maximum(1.0, (absolute(v) + half_track * absolute(omega)) / rim_max)
@@ -225,8 +211,8 @@ def rims_scaled(v, omega, half_track, rim_max):
 
 def rims_clipped(v, omega, half_track, rim_max):
     """Each rim clipped by itself: the path changes."""
-    left, right = rims(v, omega, half_track)
-    return from_rims(clipped(left, rim_max), clipped(right, rim_max), half_track)
+    left, right = differential_inverse(v, omega, 1.0, 1.0, half_track)
+    return differential_forward(clipped(left, rim_max), clipped(right, rim_max), 1.0, 1.0, half_track)
 
 
 def rims_keeping_omega(v, omega, half_track, rim_max):
