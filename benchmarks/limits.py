@@ -6,6 +6,7 @@ import struct
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -16,33 +17,33 @@ STREAM_ROWS = 4_000_000  # three arrays of 32 MB: no cache holds them
 CACHE_ROWS = 8192  # three arrays of 64 KB: the second-level cache holds them
 
 
-def triad(b, c, scale):
+def triad(b: Any, c: Any, scale: Any) -> Any:
     """B + scale c: the classical measure of memory traffic."""
     return b + scale * c
 
 
-def only_sincos(x, y):
+def only_sincos(x: Any, y: Any) -> Any:
     """Sine plus cosine of an angle."""
     s, c = sincos(x)
     return s + c * y
 
 
-def only_atan2(x, y):
+def only_atan2(x: Any, y: Any) -> Any:
     """Angle of a direction."""
     return atan2(x, y)
 
 
-def only_sqrt(x, y):
+def only_sqrt(x: Any, y: Any) -> Any:
     """A root and a quotient."""
     return sqrt(x * x + y * y) / (1.0 + y * y)
 
 
-def only_exp(x, y):
+def only_exp(x: Any, y: Any) -> Any:
     """An exponential."""
     return exp(x) * y
 
 
-def only_log(x, y):
+def only_log(x: Any, y: Any) -> Any:
     """A logarithm."""
     return log1p(x * x) * y
 
@@ -99,7 +100,8 @@ def _bandwidths() -> dict[int, float]:
     from benchmarks.measure import threads
 
     b, c = np.linspace(0.0, 1.0, STREAM_ROWS), np.linspace(1.0, 2.0, STREAM_ROWS)
-    out, rates, stream = (np.empty(STREAM_ROWS),), {}, evaluator(triad)
+    out, stream = (np.empty(STREAM_ROWS),), evaluator(triad)
+    rates: dict[int, float] = {}
     for count in (1, 2):
         with threads(count):
             ns = _fastest(lambda: stream.on_compiled(b, c, 3.0, out=out), 1, 5) / STREAM_ROWS
@@ -113,12 +115,13 @@ def _costs() -> tuple[dict[str, float], dict[str, float]]:
 
     x, y = np.linspace(-3.0, 3.0, CACHE_ROWS), np.linspace(1.0, 2.0, CACHE_ROWS)
     out, short = (np.empty(CACHE_ROWS),), (np.empty(8),)
-    block, empty = {}, {}
+    block: dict[str, float] = {}
+    empty: dict[str, float] = {}
     with threads(1):
         for law in (only_sincos, only_atan2, only_sqrt, only_exp, only_log):
             run, name = evaluator(law).on_compiled, law.__name__.removeprefix("only_")
-            block[name] = _fastest(lambda run=run: run(x, y, out=out), 5, 40)
-            empty[name] = _fastest(lambda run=run: run(x[:8], y[:8], out=short), 5, 40)
+            block[name] = _fastest(partial(run, x, y, out=out), 5, 40)
+            empty[name] = _fastest(partial(run, x[:8], y[:8], out=short), 5, 40)
     return block, empty
 
 

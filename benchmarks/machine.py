@@ -24,14 +24,14 @@ def processor() -> str:
 
 def description() -> list[tuple[str, str]]:
     """Lines of a small table: what, value."""
-    import numba
+    from numba import config
 
     load = "/".join(f"{value:.1f}" for value in os.getloadavg()) if hasattr(os, "getloadavg") else "unknown"
     return [
         ("processor", processor()),
         (
             "cores",
-            f"{os.cpu_count()}; compiled loops on 1 or {numba.config.NUMBA_NUM_THREADS} threads, as each row says",
+            f"{os.cpu_count()}; compiled loops on 1 or {config.NUMBA_NUM_THREADS} threads, as each row says",
         ),
         ("system", f"{platform.system()} {platform.release()}, Python {platform.python_version()}"),
         ("load average", f"{load} over 1/5/15 min when the page was written; the benchmark itself is about 1"),

@@ -119,7 +119,7 @@ def misses(findings: Findings) -> list[str]:
     lines += [
         f"- {row.law}, {row.rows} rows: what the engine picks takes {times(row.excess)} times the faster evaluator"
         for row in findings.sizes
-        if row.excess > RESOLVED
+        if row.is_slower
     ]
     return lines or ["- nothing"]
 
@@ -172,7 +172,7 @@ def machine(findings: Findings) -> list[str]:
         ("primitives in cache", f"{costs} ns a row on one thread; sqrt counts a root and a quotient"),
         ("call of a C function", f"{limits.call:.0f} ns with six floats"),
     ]
-    return table(("", ""), rows)
+    return [*(f"- {what}: {value}" for what, value in rows), ""]
 
 
 def page(findings: Findings) -> str:
@@ -223,7 +223,7 @@ of 1 m is 2.2e-16.
 BEHIND = "Slower than its goal, than the best peer, or than the evaluator that the engine did not pick."
 SIZES = (
     "A law by the NumPy text, by the compiled loop, and by what the engine picks; then the public method, a call and a "
-    "row. Where the engine switches it must not be slower than both; the time of ratios below "
+    "row. Where the engine switches it must not be slower than both; a ratio below "
     f"{RESOLVED} is not resolved. — stands where a call would take too long."
 )
 STARTS = "Each in a fresh process. Small batches never wait for a compiler; the disk cache is kept for each user."

@@ -37,10 +37,18 @@ class Row:
     @property
     def excess(self) -> float:
         """What the engine's pick takes over the faster of text and compiled: the median of the ratios by round."""
+        return statistics.median(self._ratios())
+
+    @property
+    def is_slower(self) -> bool:
+        """Whether the pick is slower than both, in every round: what is not so in every round is noise."""
+        return self.excess > RESOLVED and min(self._ratios()) > 1.0
+
+    def _ratios(self) -> list[float]:
         others = [times for name, times in self.rounds.items() if name in ("text", "compiled") and times]
-        return max(
-            statistics.median(p / q for p, q in zip(self.rounds["picked"], times, strict=True)) for times in others
-        )
+        return [
+            picked / min(times) for picked, times in zip(self.rounds["picked"], zip(*others, strict=True), strict=True)
+        ]
 
 
 def cost_against_size(effort: Effort) -> list[Row]:
@@ -64,9 +72,9 @@ def _rounds(calls: dict[str, Callable[[], Any]], effort: Effort) -> dict[str, li
         call()
         start = time.perf_counter()
         call()
-        counts[name] = max(1, min(2000, round(0.25 * effort.slice / (time.perf_counter() - start))))
+        counts[name] = max(1, min(2000, round(0.15 * effort.slice / (time.perf_counter() - start))))
     rounds: dict[str, list[float]] = {name: [] for name in calls}
-    for _ in range(effort.rounds):
+    for _ in range(2 * effort.rounds - 1):
         for name, call in calls.items():
             start = time.perf_counter()
             for _ in range(counts[name]):

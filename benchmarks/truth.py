@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from mpmath import mp, mpf
 
+__all__ = ["arc", "chain", "exact", "impact", "low_angle", "mp", "mpf", "rows", "segment", "two_link"]
+
 mp.dps = 50
 
 

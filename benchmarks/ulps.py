@@ -23,52 +23,52 @@ class Ulps:
     compiled: float
 
 
-def law_sin(x):
+def law_sin(x: Any) -> Any:
     """Sine."""
     return sin(x)
 
 
-def law_cos(x):
+def law_cos(x: Any) -> Any:
     """Cosine."""
     return cos(x)
 
 
-def law_tan(x):
+def law_tan(x: Any) -> Any:
     """Tangent."""
     return tan(x)
 
 
-def law_sinc(x):
+def law_sinc(x: Any) -> Any:
     """Sin(x)/x."""
     return sinc(x)
 
 
-def law_exp(x):
+def law_exp(x: Any) -> Any:
     """Exponential."""
     return exp(x)
 
 
-def law_expm1(x):
+def law_expm1(x: Any) -> Any:
     """Exponential less 1."""
     return expm1(x)
 
 
-def law_log1p(x):
+def law_log1p(x: Any) -> Any:
     """Logarithm of 1 + x."""
     return log1p(x)
 
 
-def law_sqrt(x):
+def law_sqrt(x: Any) -> Any:
     """Root."""
     return sqrt(x)
 
 
-def law_atan2(y, x):
+def law_atan2(y: Any, x: Any) -> Any:
     """Angle of a direction."""
     return atan2(y, x)
 
 
-def law_hypot(y, x):
+def law_hypot(y: Any, x: Any) -> Any:
     """Length."""
     return hypot(y, x)
 
