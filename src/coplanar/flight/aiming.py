@@ -112,6 +112,19 @@ class Aim:
         least = self.least()
         return plain(np.where(least.code == forms.ANY_SPEED, 0.0, least.low.speed))
 
+    def where(self, rows: Any, other: Aim) -> Aim:
+        """This answer in the rows that are True, the other one elsewhere; both are for the same targets."""
+        arcs = [
+            _arc(self.projectile, tuple(components(self.start)), _chosen(rows, one, two), 1.0, np.shape(rows))
+            for one, two in ((self.low, other.low), (self.high, other.high))
+        ]
+        code = np.where(rows, self.code, other.code)
+        numbers = [
+            plain(np.where(rows, one, two))
+            for one, two in ((self.furthest, other.furthest), (self.shortfall, other.shortfall))
+        ]
+        return Aim(self.projectile, self.start, self.target, int(code) if code.ndim == 0 else code, *arcs, *numbers)
+
     def sentence(self) -> str:
         """The status in a sentence with its numbers; the counts of each status for a batch."""
         text = count_by_status(AimStatus, self.code)
@@ -143,24 +156,25 @@ def aim(
     number = check(name, value)
     checks.broadcast(target=tx, start=sx, k=projectile.drag_per_mass, **{name: number})
     rows = np.broadcast_arrays(tx - sx, ty - sy, projectile.drag_per_mass, projectile.gravity, number)
-    x, y, k, g, number = (np.array(row, dtype=np.float64, ndmin=1) for row in rows)
+    x, y, k, g, number = (np.asarray(row, dtype=np.float64) for row in rows)
     if np.any((x == 0.0) & (y == 0.0) & ((name != "time") | (g <= 0.0))):
         raise InvalidValue(
             "target", target, "a point away from the launch point", "only a flight time leads back to it"
         )
     side = np.where(x < 0.0, -1.0, 1.0)
     way = forms.Way(np.abs(x), y, k, g)
-    answer = _answer(way, name, number, side)
+    with np.errstate(all="ignore"):  # what is not a number is said by the code
+        answer = _answer(way, name, number, side)
     shortfall = np.where(answer.code == forms.OUT_OF_REACH, way.distance - answer.furthest, 0.0)
     if name == "angle":
         shortfall = np.where(answer.code == forms.OFF_THE_LINE, _aside(way, side * np.cos(number), np.sin(number)), 0.0)
     shape = rows[0].shape
     low, high = (_arc(projectile, (sx, sy), arc, side, shape) for arc in (answer.low, answer.high))
-    code = answer.code.reshape(shape)
+    code = np.broadcast_to(answer.code, shape)
     points = [stack(np.broadcast_arrays(*point, np.empty(shape))[:2]) for point in ((sx, sy), (tx, ty))]
     return Aim(
         projectile, checks.frozen(points[0]), checks.frozen(points[1]), int(code) if not shape else code, low, high,
-        _shaped(answer.furthest + 0.0 * x, shape), _shaped(shortfall, shape),
+        plain(answer.furthest + np.zeros(shape)), plain(shortfall + np.zeros(shape)),
     )  # fmt: skip
 
 
@@ -180,10 +194,11 @@ def _aside(way: forms.Way, cosine: np.ndarray, sine: np.ndarray) -> np.ndarray:
     return np.where(ahead, np.abs(way.x * sine - way.y * cosine), way.distance)
 
 
-def _arc(projectile: Projectile, start: tuple[Real, Real], arc: Any, side: np.ndarray, shape: tuple[int, ...]) -> Arc:
-    vx, vy, time = (_shaped(np.broadcast_to(part, side.shape), shape) for part in (side * arc[0], arc[1], arc[2]))
+def _arc(projectile: Projectile, start: tuple[Real, ...], arc: Any, side: Any, shape: tuple[int, ...]) -> Arc:
+    vx, vy, time = (plain(np.broadcast_to(part, shape)) for part in (side * arc[0], arc[1], arc[2]))
     return Arc(Shot._of(projectile, *start, vx, vy), time)
 
 
-def _shaped(row: Any, shape: tuple[int, ...]) -> Any:
-    return plain(np.reshape(row, shape))
+def _chosen(rows: Any, yes: Arc, no: Arc) -> list[Any]:
+    pairs = ((yes.shot.vx, no.shot.vx), (yes.shot.vy, no.shot.vy), (yes.time, no.time))
+    return [np.where(rows, a, b) for a, b in pairs]

@@ -27,10 +27,10 @@ _launch_speed_of_mean = evaluator(laws.launch_speed_of_mean)
 _speed_at_height = evaluator(laws.speed_at_height)
 _straight_time = evaluator(laws.straight_time)
 
-UPRIGHT = 1e-14  # cosine of a line of sight that counts as vertical: the target is missed by this part of its distance
+UPRIGHT = 1e-9  # cosine of a line of sight that counts as vertical: the shot is a straight one, leaning by first order
 ALONG = 1e-12  # [rad] between a launch and the line of sight that counts as along it, where only along it will do
 ROUNDS = 60  # of Newton for the flight time; it takes about six
-MOST_HOLD = 300.0  # k times mean speed times time: beyond, the speed of launch has no square
+MOST_HOLD = 115.0  # k times mean speed times time: beyond, the speed of launch is about 1e50 times the mean speed
 
 
 class AimStatus(Enum):
@@ -39,7 +39,7 @@ class AimStatus(Enum):
     HIT = "the launch sends the projectile through the target"
     OUT_OF_REACH = "out of reach at this speed: the launch goes as far as it can towards the target"
     OFF_THE_LINE = "no speed reaches the target at this angle: it is not below the line of the launch"
-    TOO_FAST = "the speed that reaches the target is too great to be a number"
+    TOO_FAST = "the target takes a speed of more than about 1e50 m/s"
     ANY_SPEED = "every speed reaches the target: there is no single or least one"
     NOT_FOUND = "the search stopped before it came to the target"
 
@@ -97,7 +97,7 @@ def by_time(way: Way, time: np.ndarray) -> Answer:
     x, y, k, g = way
     wx, wy = _first_climb(x, y, time, k, g)
     scale = g * time + way.distance / time
-    floor = 1e-12 * scale
+    floor = 1e-15 * scale  # let go: the slowest launch that still has a direction, and that is down
     settled, lost = np.zeros(x.shape, bool), np.zeros(x.shape, bool)
     for _ in range(ROUNDS):
         path, grown, mean, lost = _of_mean(wx, wy, time, floor, way)
@@ -125,7 +125,7 @@ def by_speed(way: Way, speed: np.ndarray) -> Answer:
     low, high, best, most = sight.both(length, speed)
     far = length > most
     low, high = np.where(far, best, low), np.where(far, best, high)
-    arcs = [_launched(sight, speed, zenith) for zenith in (low, high)]
+    arcs = [_launched(sight, np.minimum(length, most), speed, zenith) for zenith in (low, high)]
     code, furthest = np.where(far, OUT_OF_REACH, HIT), most
     for special, instead in ((way.upright, _upright_by_speed), (way.weightless, _straight_by_speed)):
         if special.any():
@@ -139,9 +139,9 @@ def by_angle(way: Way, cosine: np.ndarray, sine: np.ndarray) -> Answer:
     """The speed at an angle (cosine, sine): there is one if the target is below the line of the launch."""
     sight, length = way.ordinary()
     zenith = np.arctan2(cosine, sine)
-    below = (zenith > 0.0) & (zenith < sight.zenith)
+    below = (zenith > ALONG) & (zenith < sight.zenith)
     speed = sight.speed_for(length, np.where(below, zenith, 0.5 * sight.zenith))
-    arc = _launched(sight, speed, np.where(below, zenith, 0.5 * sight.zenith))
+    arc = _launched(sight, length, speed, np.where(below, zenith, 0.5 * sight.zenith))
     code = np.where(below, np.where(np.isfinite(speed), HIT, TOO_FAST), OFF_THE_LINE)
     along = (np.abs(way.x * sine - way.y * cosine) <= ALONG * way.distance) & (way.x * cosine + way.y * sine > 0.0)
     drops = way.upright & (np.abs(cosine) <= ALONG) & (way.y < 0.0) & ~way.weightless
@@ -158,7 +158,7 @@ def by_least(way: Way) -> Answer:
     """The least speed of all and its angle; there is none where the target is straight below, or without gravity."""
     sight, length = way.ordinary()
     speed, zenith = sight.least(length)
-    arc = _launched(sight, speed, zenith)
+    arc = _launched(sight, length, speed, zenith)
     code = np.where(np.isfinite(speed), HIT, TOO_FAST)
     climbs = way.upright & (way.y > 0.0)
     arc = _merged(climbs, _climb(way), arc)
@@ -170,11 +170,13 @@ def by_least(way: Way) -> Answer:
 
 def _of_mean(wx: Row, wy: Row, time: Row, floor: Row, way: Way) -> tuple[Path, Row, Row, np.ndarray]:
     """The launch whose mean velocity against drag alone is w; where it is too fast to be a number, a slower one."""
-    mean = np.maximum(np.hypot(wx, wy), floor)
+    length = np.hypot(wx, wy)
+    mean, still = np.maximum(length, floor), length < floor
+    cosine, sine = np.where(still, 0.0, wx / mean), np.where(still, -1.0, wy / mean)
     hold = way.drag_per_mass * mean * time
     lost = ~(hold <= MOST_HOLD)
     v, grown = _launch_speed_of_mean(np.where(lost, mean * MOST_HOLD / np.where(lost, hold, 1.0), mean), time, way[2])
-    return Path(v, wx / mean, wy / mean, way.drag_per_mass, way.gravity), grown, mean, lost
+    return Path(v, cosine, sine, way.drag_per_mass, way.gravity), grown, mean, lost
 
 
 def _solve(a: Row, b: Row, c: Row, d: Row, e: Row, f: Row) -> tuple[Row, Row]:
@@ -184,11 +186,16 @@ def _solve(a: Row, b: Row, c: Row, d: Row, e: Row, f: Row) -> tuple[Row, Row]:
         return (d * e - b * f) / det, (a * f - c * e) / det
 
 
-def _launched(sight: Sight, speed: Row, zenith: Row) -> tuple[Row, Row, Row]:
-    finite = np.where(np.isfinite(speed), speed, 1.0)
-    path = sight.path(finite, zenith)
+def _launched(sight: Sight, length: Row, speed: Row, zenith: Row) -> tuple[Row, Row, Row]:
+    """The velocity, and the time at which the path is nearest to the end of the line of sight.
+
+    A path that is nearly parallel to the line crosses it at a place known less well than the path itself.
+    """
+    path = sight.path(np.where(np.isfinite(speed), speed, 1.0), zenith)
     end, _ = crossing(path, sight.cosine, sight.sine)
-    return speed * path.cosine, speed * path.sine, end.time
+    ahead = (length * sight.cosine - end.x) * end.vx + (length * sight.sine - end.y) * end.vy
+    later = ahead / (end.vx * end.vx + end.vy * end.vy)
+    return speed * path.cosine, speed * path.sine, end.time + np.where(np.isfinite(speed), later, 0.0)
 
 
 def _straight_by_speed(way: Way, speed: Row) -> Answer:
@@ -208,9 +215,8 @@ def _upright_by_speed(way: Way, speed: Row) -> Answer:
     rise = _climb_time(speed, _speed_at_height(speed, height, k, g), k, g)
     down, _ = crossing(Path(speed, 0.0, -1.0, k, g), 1.0, 0.0, np.where(up, 1.0, -way.y))
     back, _ = crossing(Path(speed, 0.0, 1.0, k, g), 1.0, 0.0, -np.minimum(way.y, most))
-    nowhere = np.zeros(way.x.shape)
-    low = nowhere, np.where(up, speed, -speed), np.where(up, rise, down.time)
-    high = nowhere, speed + nowhere, np.where(far, rise, back.time)
+    low = _leaning(way, np.where(up, speed, -speed), np.where(up, rise, down.time))
+    high = _leaning(way, speed + 0.0 * way.y, np.where(far, rise, back.time))
     return Answer(low, high, np.where(far, OUT_OF_REACH, HIT), most)
 
 
@@ -218,7 +224,14 @@ def _climb(way: Way) -> tuple[Row, Row, Row]:
     """The least launch straight up to the target: it arrives at rest."""
     g = np.where(way.weightless, 1.0, way.gravity)
     speed = _climb_speed(np.maximum(way.y, 0.0), way.drag_per_mass, g)
-    return 0.0 * speed, speed, _climb_time(speed, 0.0 * speed, way.drag_per_mass, g)
+    return _leaning(way, speed, _climb_time(speed, 0.0 * speed, way.drag_per_mass, g))
+
+
+def _leaning(way: Way, upwards: Row, time: Row) -> tuple[Row, Row, Row]:
+    """A straight shot made to lean so that it is at the target's x in time: there x is linear in the lean."""
+    path = Path(np.abs(upwards), UPRIGHT, np.sign(upwards), way.drag_per_mass, way.gravity)
+    across = at_time(path, time).x
+    return path.speed * UPRIGHT * way.x / np.where(across > 0.0, across, 1.0), upwards, time
 
 
 def _merged(rows: np.ndarray, yes: tuple[Row, Row, Row], no: tuple[Row, Row, Row]) -> tuple[Row, Row, Row]:

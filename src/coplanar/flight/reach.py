@@ -108,15 +108,16 @@ def most_tolerant(
         raise InvalidValue(
             "target", target, "aside of the launch point, under gravity", "straight shots leave no choice"
         )
-    least = projectile.aim(target, start=start)
-    top = np.minimum(max_speed, FASTER * np.asarray(least.low.speed))
-    if not np.all(top >= least.low.speed):
-        return Tolerant(
-            projectile.aim(target, speed=top, start=start), plain(np.full(x.shape, np.inf)), top < max_speed
-        )
-    zenith, miss, edge = _search(way, top, spread)
+    least = np.asarray(projectile.aim(target, start=start).low.speed)
+    top = np.minimum(max_speed, FASTER * least)
+    within = top >= least
+    with np.errstate(all="ignore"):
+        zenith, miss, edge = _search(way, np.maximum(top, least), spread)
     angle = np.where(x < 0.0, 0.5 * np.pi + zenith, 0.5 * np.pi - zenith)
-    return Tolerant(projectile.aim(target, angle=plain(angle), start=start), plain(miss), edge)
+    aim = projectile.aim(target, angle=plain(angle), start=start)
+    if not within.all():
+        aim = aim.where(within, projectile.aim(target, speed=plain(top), start=start))
+    return Tolerant(aim, plain(np.where(within, miss, np.inf)), _flag(edge & within))
 
 
 def _search(way: Way, top: Any, spread: tuple[Real, Real]) -> tuple[Any, Any, Any]:
@@ -137,4 +138,8 @@ def _search(way: Way, top: Any, spread: tuple[Real, Real]) -> tuple[Any, Any, An
         count = NEXT_GRID
     found, miss = (np.take_along_axis(a, best, -1)[..., 0] for a in (zenith, spreads))
     edge = (np.abs(found - high) <= 1e-3 * (low - high)) | (np.abs(found - low) <= 1e-3 * (low - high))
-    return found, miss, bool(edge) if edge.ndim == 0 else edge
+    return found, miss, edge
+
+
+def _flag(rows: Any) -> Any:
+    return bool(rows) if np.ndim(rows) == 0 else rows

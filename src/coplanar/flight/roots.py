@@ -54,7 +54,7 @@ def rising_root(
         x = step
         if settled.all():
             break
-    return np.asarray(x)
+    return np.where(np.isnan(value), np.nan, x)
 
 
 def falling_root(

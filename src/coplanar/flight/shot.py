@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 _energy = evaluator(laws.energy)
 
+TOO_FAST = 1e150  # [m/s] the square of a speed has to be a number
 METHODS = ("hodograph", "ode")
 
 
@@ -56,8 +57,9 @@ class Shot:
     def __post_init__(self) -> None:
         for name in ("x", "y", "vx", "vy"):
             object.__setattr__(self, name, checks.frozen(checks.real(name, getattr(self, name))))
-        if not np.all(np.hypot(self.vx, self.vy) > 0.0):
-            raise InvalidValue("velocity", (self.vx, self.vy), "a speed greater than 0", "a launch needs a direction")
+        speed = np.hypot(self.vx, self.vy)
+        if not np.all((speed > 0.0) & (speed < TOO_FAST)):
+            raise InvalidValue("velocity", (self.vx, self.vy), "a speed greater than 0 and below 1e150 m/s")
         checks.broadcast(x=self.x, y=self.y, vx=self.vx, vy=self.vy, k=self.projectile.drag_per_mass)
 
     @classmethod

@@ -21,7 +21,7 @@ Row = Any
 _free_speed = evaluator(laws.free_speed)
 _hold_off = evaluator(laws.hold_off)
 
-FASTEST = 340.0  # log of the greatest speed [m/s] that is searched; its square is still a number
+FASTEST = 115.0  # log of the greatest speed that is searched, about 1e50 m/s
 FINE = 1e-9  # last secant step to the best angle, over the sector between the zenith and the line
 
 

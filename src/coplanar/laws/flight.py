@@ -34,7 +34,8 @@ from coplanar.engine import (
 )
 
 PANEL = 2.2  # widest panel in theta
-STEEPEST = 1e-10  # cos(angle) of the steepest hodograph; below it t and y differ by its square, and x is linear in it
+STRAIGHT = 1e-16  # a cosine below this is straight up or down
+STEEP = 1e-10  # and takes this hodograph: t and y differ by its square, and x is linear in the true cosine
 FAINTEST = 1e-12  # [1/m] drag in ``pace`` only, so that a flight without any force has one too
 SERIES_BELOW = 1e-5  # the first term left out is below 3e-16
 
@@ -65,7 +66,7 @@ def atan_ratio(x):
 
 def sides(c, s):
     """A = 1 + sin psi, B = 1 - sin psi of a direction (cos psi, sin psi), with A B = cos^2 psi, never 0."""
-    cosine = maximum(absolute(c), STEEPEST)
+    cosine = where(absolute(c) < STRAIGHT, STEEP, absolute(c))
     large = 1.0 + absolute(s)
     small = cosine * cosine / large
     return where(s > 0.0, large, small), where(s > 0.0, small, large)
