@@ -34,6 +34,6 @@ def description() -> list[tuple[str, str]]:
             f"{os.cpu_count()}; compiled loops on 1 or {config.NUMBA_NUM_THREADS} threads, as each row says",
         ),
         ("system", f"{platform.system()} {platform.release()}, Python {platform.python_version()}"),
-        ("load average", f"{load} over 1/5/15 min when the page was written; the benchmark itself is about 1"),
+        ("load average", f"{load} over 1/5/15 min when the run began; the benchmark itself is about 1"),
         ("versions", ", ".join(f"{name} {metadata.version(name)}" for name in OURS)),
     ]
