@@ -148,9 +148,8 @@ def by_angle(way: Way, cosine: np.ndarray, sine: np.ndarray) -> Answer:
     code = np.where(way.upright | way.weightless, OFF_THE_LINE, code)
     code = np.where((along & way.weightless) | drops, ANY_SPEED, code)
     climbs = along & way.upright & ~way.weightless & (way.y > 0.0)
-    arc = _merged(climbs, _climb(way), arc)
     code = np.where(climbs, HIT, code)
-    arc = _kept(code == HIT, *arc)
+    arc = _kept(code == HIT, *(_merged(climbs, _climb(way), arc) if climbs.any() else arc))
     return Answer(arc, arc, code, np.inf)
 
 
@@ -161,10 +160,9 @@ def by_least(way: Way) -> Answer:
     arc = _launched(sight, length, speed, zenith)
     code = np.where(np.isfinite(speed), HIT, TOO_FAST)
     climbs = way.upright & (way.y > 0.0)
-    arc = _merged(climbs, _climb(way), arc)
     code = np.where(climbs, HIT, code)
     code = np.where(way.weightless | (way.upright & (way.y <= 0.0)), ANY_SPEED, code)
-    arc = _kept(code == HIT, *arc)
+    arc = _kept(code == HIT, *(_merged(climbs, _climb(way), arc) if climbs.any() else arc))
     return Answer(arc, arc, code, np.inf)
 
 

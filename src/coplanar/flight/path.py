@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from coplanar.engine import evaluator
-from coplanar.flight.roots import rising_root
+from coplanar.flight.roots import ROUNDING, rising_root
 from coplanar.laws import flight as laws
 
 Row = Any  # a float or an array of float64
@@ -89,11 +89,11 @@ def at_time(path: Path, time: Row) -> State:
     end = np.where(end > 0.0, end, np.inf)
     start = np.minimum(np.maximum(straight, turned), end)
 
-    def late(theta: np.ndarray) -> tuple[Row, Row]:
+    def late(theta: Row, time: Row, *path: Row) -> tuple[Row, Row]:
         t, rate = _clock(theta, *path)
-        return t - time, rate
+        return np.where(np.abs(t - time) <= ROUNDING * time, 0.0, t - time), rate
 
-    state = state_at(path, rising_root(late, start, 0.0, end, longest=LONGEST))
+    state = state_at(path, rising_root(late, start, 0.0, end, time, *path, longest=LONGEST))
     return after(path, state, time - state.time)
 
 
@@ -102,7 +102,7 @@ def parallel(path: Path, slope_cosine: Row, slope_sine: Row) -> State:
     return state_at(path, theta_of_turn(path, _parallel_turn(path.cosine, path.sine, slope_cosine, slope_sine)))
 
 
-def crossing(path: Path, slope_cosine: Row, slope_sine: Row, height: Row = 0.0, theta: Row = None) -> tuple[State, Row]:
+def crossing(path: Path, slope_cosine: Row, slope_sine: Row, height: Row = 0.0) -> tuple[State, Row]:
     """Where the path crosses a line from above to below.
 
     Args:
@@ -110,7 +110,6 @@ def crossing(path: Path, slope_cosine: Row, slope_sine: Row, height: Row = 0.0, 
         slope_cosine: Cosine of the line's angle, >= 0; 0 is a wall.
         slope_sine: Its sine.
         height: How far the launch point stands above the line [m], along the line's normal.
-        theta: A guess.
 
     Returns:
         The state there and True, or the state nearest to the line and False.
@@ -120,16 +119,17 @@ def crossing(path: Path, slope_cosine: Row, slope_sine: Row, height: Row = 0.0, 
     clearance = height + slope_cosine * top.y - slope_sine * top.x
     fall = np.where(away, 0.0, np.maximum(clearance, 0.0))
     end = np.where(np.asarray(path.gravity) > 0.0, np.maximum(last_theta(path), top.theta), np.inf)
-    start = _first_crossing(path, top, fall, slope_cosine, slope_sine) if theta is None else theta
+    start = _first_crossing(path, top, fall, slope_cosine, slope_sine)
 
-    def fallen(theta: np.ndarray) -> tuple[Row, Row]:
-        drop, rate = _drop(top.theta, theta, *path, slope_cosine, slope_sine)
+    def fallen(theta: Row, fall: Row, top: Row, *path_and_slope: Row) -> tuple[Row, Row]:
+        drop, rate = _drop(top, theta, *path_and_slope)
         with np.errstate(all="ignore"):
             level = np.sqrt(fall / np.maximum(drop, 0.0))  # Newton on sqrt(drop), which is smooth where it starts
         return drop - fall, 0.5 * rate * (1.0 + np.where(np.isfinite(level), level, 1.0))
 
     start = np.where(fall > 0.0, np.clip(start, top.theta, end), top.theta)
-    state = state_at(path, rising_root(fallen, start, top.theta, end, longest=LONGEST))
+    given = (fall, top.theta, *path, slope_cosine, slope_sine)
+    state = state_at(path, rising_root(fallen, start, top.theta, end, *given, longest=LONGEST))
     rest = np.where(away, 0.0, np.maximum(height + slope_cosine * state.y - slope_sine * state.x, 0.0))
     wall = np.asarray(slope_cosine) <= 0.0
     later = _time_down(path, state, np.where(wall, 0.0, rest), slope_cosine, slope_sine)
@@ -149,10 +149,11 @@ def by_launch(path: Path, state: State) -> tuple[Row, Row, Row, Row]:
 
 def _first_crossing(path: Path, top: State, fall: Row, slope_cosine: Row, slope_sine: Row) -> Row:
     """The parameter theta of the crossing if there were no drag from the top on: never too late."""
-    v, g = np.hypot(top.vx, top.vy), path.gravity
+    vx, g = np.maximum(top.vx, laws.STEEP * path.speed), path.gravity  # at the apex of a straight climb both are 0
+    v = np.hypot(vx, top.vy)
     time = _time_down(path._replace(drag_per_mass=0.0), top, fall, slope_cosine, slope_sine)
     turn = _turn(top.theta, path.speed, path.drag_per_mass, g)
-    cosine, sine = top.vx / v, top.vy / v
+    cosine, sine = vx / v, top.vy / v
     return theta_of_turn(path, turn * np.maximum(1.0, _ballistic_turn(time, v, cosine, sine, g)))
 
 

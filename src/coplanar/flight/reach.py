@@ -124,10 +124,9 @@ def _search(way: Way, top: Any, spread: tuple[Real, Real]) -> tuple[Any, Any, An
     """The zenith angle of the least miss: the best of a grid, then of finer ones between its neighbours."""
     sight, length = way.ordinary()
     low, high, _, _ = sight.both(length, top)
-    rows = [np.asarray(a)[..., None] for a in (sight.cosine, sight.sine, way.drag_per_mass, way.gravity)]
+    wide = Sight(*(np.asarray(a)[..., None] for a in sight))
     left, right, count = high, low, FIRST_GRID
     for _ in range(ZOOMS + 1):
-        wide = Sight(*rows)
         zenith = left[..., None] + (right - left)[..., None] * np.linspace(0.0, 1.0, count)
         speed = wide.speed_for(length[..., None], zenith)
         end = wide.reach(speed, zenith).end

@@ -34,29 +34,28 @@ class Range(NamedTuple):
     end: State
 
 
-class Sight:
-    """A line of sight from the launch point, seen under drag k and gravity g.
+class Sight(NamedTuple):
+    """A line of sight from the launch point: cosine >= 0 and sine of its angle, drag k [1/m] and gravity g [m/s^2]."""
 
-    The crossing found last is the next one's first guess.
-    """
+    cosine: Row
+    sine: Row
+    drag_per_mass: Row
+    gravity: Row
 
-    def __init__(self, cosine: Row, sine: Row, drag_per_mass: Row, gravity: Row) -> None:
-        self.cosine, self.sine = cosine, sine
-        self.zenith = np.arctan2(cosine, sine)
-        self._forces = drag_per_mass, gravity
-        self._theta: Row = None
+    @property
+    def zenith(self) -> Row:
+        """Angle of the line from the zenith [rad]."""
+        return np.arctan2(self.cosine, self.sine)
 
     def path(self, speed: Row, zenith: Row) -> Path:
         """The launch at a speed and an angle from the zenith."""
-        return Path(speed, np.sin(zenith), np.cos(zenith), *self._forces)
+        return Path(speed, np.sin(zenith), np.cos(zenith), self.drag_per_mass, self.gravity)
 
     def reach(self, speed: Row, zenith: Row) -> Range:
         """The range along the line: from the launch point to where the path comes back to the line."""
-        path = self.path(speed, zenith)
-        end, _ = crossing(path, self.cosine, self.sine, 0.0, self._theta)
-        self._theta = end.theta
+        path, c, s = self.path(speed, zenith), self.cosine, self.sine
+        end, _ = crossing(path, c, s)
         x_v, y_v, x_psi, y_psi = by_launch(path, end)
-        c, s = self.cosine, self.sine
         # A change of the launch moves the path; the end slides along the path until it is on the line again.
         with np.errstate(all="ignore"):
             slide = (c * end.vx + s * end.vy) / (c * end.vy - s * end.vx)
@@ -69,40 +68,50 @@ class Sight:
 
     def farthest(self, speed: Row) -> tuple[np.ndarray, Range]:
         """The angle from the zenith that goes farthest at this speed, and its range."""
-        best = falling_root(
-            lambda zenith: -self.reach(speed, zenith).by_angle, 0.5 * self.zenith, 0.0, self.zenith, fine=FINE
-        )
+
+        def surplus(zenith: Row, speed: Row, *sight: Row) -> Row:
+            return -Sight(*sight).reach(speed, zenith).by_angle
+
+        best = falling_root(surplus, 0.5 * self.zenith, 0.0, self.zenith, speed, *self, fine=FINE)
         return best, self.reach(speed, best)
 
     def speed_for(self, distance: Row, zenith: Row, start: Row = None) -> np.ndarray:
         """The speed that reaches a distance at this angle; infinite where it is beyond exp(``FASTEST``) m/s.
 
         The range rises with the speed, like v^2 at first and like log v in the end: Newton in log v.
-        """
-        k, g = self._forces
-        free = np.log(_free_speed(distance, self.cosine, np.sin(zenith), np.sin(self.zenith - zenith), g))
-        guess = free + _hold_off(k * distance) if start is None else np.log(start)
 
-        def beyond(log_speed: np.ndarray) -> tuple[Row, Row]:
+        Args:
+            distance: Along the line [m].
+            zenith: Angle of the launch from the zenith [rad].
+            start: A guess of the speed [m/s].
+        """
+        free = np.log(_free_speed(distance, self.cosine, np.sin(zenith), np.sin(self.zenith - zenith), self.gravity))
+        guess = free + _hold_off(self.drag_per_mass * distance) if start is None else np.log(start)
+
+        def beyond(log_speed: Row, distance: Row, zenith: Row, *sight: Row) -> tuple[Row, Row]:
             speed = np.exp(log_speed)
-            now = self.reach(speed, zenith)
+            now = Sight(*sight).reach(speed, zenith)
             with np.errstate(all="ignore"):
                 return np.log(now.distance / distance), speed * now.by_speed / now.distance
 
-        found = rising_root(beyond, np.clip(guess, free, FASTEST), np.minimum(free, FASTEST), FASTEST, longest=20.0)
+        start, end = np.clip(guess, free, FASTEST), np.minimum(free, FASTEST)
+        found = rising_root(beyond, start, end, FASTEST, distance, zenith, *self, longest=20.0)
         return np.where(found < FASTEST, np.exp(found), np.inf)
 
     def least(self, distance: Row) -> tuple[np.ndarray, np.ndarray]:
-        """The least speed that reaches a distance, and its angle from the zenith: where more angle brings no range."""
-        speed: Row = None
+        """The least speed that reaches a distance, and its angle from the zenith: where more angle brings no range.
 
-        def surplus(zenith: np.ndarray) -> Row:
-            nonlocal speed
-            speed = self.speed_for(distance, zenith, speed)
-            return -self.reach(speed, zenith).by_angle
+        Near it the speed hardly changes with the angle, so that the speed at the first angle is a guess for all.
+        """
 
-        zenith = falling_root(surplus, 0.5 * self.zenith, 0.0, self.zenith, fine=FINE)
-        return self.speed_for(distance, zenith, speed), zenith
+        def surplus(zenith: Row, distance: Row, guess: Row, *sight: Row) -> Row:
+            line = Sight(*sight)
+            return -line.reach(line.speed_for(distance, zenith, guess), zenith).by_angle
+
+        middle = 0.5 * self.zenith
+        guess = self.speed_for(distance, middle)
+        zenith = falling_root(surplus, middle, 0.0, self.zenith, distance, guess, *self, fine=FINE)
+        return self.speed_for(distance, zenith, guess), zenith
 
     def both(self, distance: Row, speed: Row) -> tuple[np.ndarray, np.ndarray, np.ndarray, Row]:
         """Low arc, lofted arc and the best angle, all from the zenith, and the farthest range, for a speed.
@@ -112,19 +121,16 @@ class Sight:
         """
         best, top = self.farthest(speed)
         most = top.distance
-        gap = np.sqrt(np.maximum(most - distance, 0.0))
-        part = 1.0 - np.sqrt(np.maximum(1.0 - distance / most, 0.0))
 
-        def long(zenith: np.ndarray, sign: float) -> tuple[Row, Row]:
-            now = self.reach(speed, zenith)
-            root = np.sqrt(np.maximum(most - now.distance, 0.0))
+        def long(way: Row, side: Row, from_: Row, distance: Row, most: Row, speed: Row, *sight: Row) -> tuple[Row, Row]:
+            now = Sight(*sight).reach(speed, from_ - side * way)
+            gap, root = (np.sqrt(np.maximum(most - far, 0.0)) for far in (distance, now.distance))
             with np.errstate(all="ignore"):
-                slope = sign * now.by_angle * np.where(root > 0.0, 0.5 * (root + gap) / root, 1.0)
+                slope = side * now.by_angle * np.where(root > 0.0, 0.5 * (root + gap) / root, 1.0)
             return np.where(gap > 0.0, now.distance - distance, 0.0), slope
 
-        self._theta = None
-        above = self.zenith - best
-        low = rising_root(lambda a: long(self.zenith - a, 1.0), part * above, 0.0, above)
-        self._theta = None
-        high = rising_root(lambda z: long(z, -1.0), part * best, 0.0, best)
+        part, above = 1.0 - np.sqrt(np.maximum(1.0 - distance / most, 0.0)), self.zenith - best
+        given = distance, most, speed, *self
+        low = rising_root(long, part * above, 0.0, above, 1.0, self.zenith, *given)
+        high = rising_root(long, part * best, 0.0, best, -1.0, 0.0, *given)
         return self.zenith - low, high, best, most

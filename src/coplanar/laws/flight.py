@@ -185,7 +185,7 @@ def fall_time(height, speed, g):
 
 
 def derivative_rates(theta, v0, c, A, B, k, g, a):
-    """Derivatives of the rates by speed and by angle at a constant q: t, x/cos(psi0), y by v0, then by psi0."""
+    """Derivatives of the rates of t, x, y at a constant q: by v0, then by psi0."""
     q = expm1(theta) / a
     m, cosh_s, sinh_s, n = hodograph(q, v0, A, B, k, g)
     step = v0 * exp(theta) / (a * m)
@@ -196,10 +196,10 @@ def derivative_rates(theta, v0, c, A, B, k, g, a):
     by_speed = step * cosh_s / (v0 * n)
     return (
         by_speed / root,
-        2.0 * by_speed * v0 / n,
+        2.0 * by_speed * c * v0 / n,
         2.0 * by_speed * v0 * sinh_s / n,
         step * (turned - 0.5 * cosh_s * slowed) / root,
-        step * v0 * (turned - cosh_s * slowed) / n,
+        step * v0 * (c * (turned - cosh_s * slowed) - 0.5 * (A - B) * cosh_s) / n,
         step * v0 * (lifted * cosh_s + sinh_s * (turned - cosh_s * slowed)) / n,
     )
 
@@ -210,10 +210,7 @@ dependence = Integral(derivative_rates)
 def derivatives(theta, v0, c, s, k, g):
     """Derivatives of t, x, y by the speed v0, then by the angle psi0, at a constant q (a constant turn)."""
     A, B = sides(c, s)
-    a = pace(v0, k, g)
-    t_v, x_v, y_v, t_psi, x_psi, y_psi = dependence(theta / PANEL, 0.0, theta, v0, c, A, B, k, g, a)
-    _, x, _ = distance(theta / PANEL, 0.0, theta, v0, A, B, k, g, a)
-    return t_v, c * x_v, y_v, t_psi, c * x_psi - s * x, y_psi
+    return dependence(theta / PANEL, 0.0, theta, v0, c, A, B, k, g, pace(v0, k, g))
 
 
 def climb_height(v0, k, g):
