@@ -48,10 +48,12 @@ def test_poses_in_a_tree(shape, seed):
     T_a_b, T_b_c, T_a_c = tree.pose(b, a), tree.pose(c, b), tree.pose(c, a)
     T = np.linalg.inv(matrix_to_root(tree, a)) @ matrix_to_root(tree, b)
     # A handful of products of lengths below ten.
-    np.testing.assert_allclose(*np.broadcast_arrays(T_a_b.as_matrix(), T), atol=500 * EPS)
-    np.testing.assert_allclose(*np.broadcast_arrays((T_a_b @ T_b_c).as_array(), T_a_c.as_array()), atol=500 * EPS)
+    np.testing.assert_allclose(*np.broadcast_arrays(T_a_b.as_matrix(), T), rtol=0, atol=500 * EPS)
     np.testing.assert_allclose(
-        *np.broadcast_arrays(tree.pose(a, b).as_array(), T_a_b.inverse().as_array()), atol=500 * EPS
+        *np.broadcast_arrays((T_a_b @ T_b_c).as_array(), T_a_c.as_array()), rtol=0, atol=500 * EPS
+    )
+    np.testing.assert_allclose(
+        *np.broadcast_arrays(tree.pose(a, b).as_array(), T_a_b.inverse().as_array()), rtol=0, atol=500 * EPS
     )
     np.testing.assert_array_equal(tree.pose(a, a).as_array(), np.zeros_like(tree.pose(a, a).as_array()))
 
@@ -70,10 +72,10 @@ def test_basis_coordinates(shape, seed, angle, flipped):
     basis = np.stack([x1, x2], axis=-2)
     c = coordinates(p, basis)
     assert c.shape == p.shape
-    np.testing.assert_allclose(from_coordinates(c, basis), p, atol=20 * EPS)
-    np.testing.assert_allclose(c, (basis @ p[..., None])[..., 0], atol=20 * EPS)
-    np.testing.assert_allclose(np.sum(c * coordinates(q, basis), -1), np.sum(p * q, -1), atol=100 * EPS)
+    np.testing.assert_allclose(from_coordinates(c, basis), p, rtol=0, atol=20 * EPS)
+    np.testing.assert_allclose(c, (basis @ p[..., None])[..., 0], rtol=0, atol=20 * EPS)
+    np.testing.assert_allclose(np.sum(c * coordinates(q, basis), -1), np.sum(p * q, -1), rtol=0, atol=100 * EPS)
     if not flipped:
         np.testing.assert_allclose(
-            c, np.stack(Pose(0.0, 0.0, turn).act_inverse(p[..., 0], p[..., 1]), -1), atol=20 * EPS
+            c, np.stack(Pose(0.0, 0.0, turn).act_inverse(p[..., 0], p[..., 1]), -1), rtol=0, atol=20 * EPS
         )

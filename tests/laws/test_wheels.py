@@ -51,10 +51,10 @@ def test_forward_after_inverse(shape, seed):
     assert rates.shape == (*shape, len(base.wheels))
     back = base.forward(rates)
     tolerance = 1000 * EPS * base.condition
-    np.testing.assert_allclose(back.as_array(), wanted.as_array(), atol=tolerance)
+    np.testing.assert_allclose(back.as_array(), wanted.as_array(), rtol=0, atol=tolerance)
     residual = base.residual(rates)
     assert residual.shape == (*shape, len(base.row_names))
-    np.testing.assert_allclose(residual, 0.0, atol=tolerance * 3)
+    np.testing.assert_allclose(residual, 0.0, rtol=0, atol=tolerance * 3)
 
 
 @pytest.mark.parametrize("shape", SHAPES)
@@ -67,7 +67,7 @@ def test_forward_is_least_squares(shape, seed):
     rates = rng.normal(size=(*shape, len(base.wheels)))
     residual = base.residual(rates)
     rows = np.vstack([base.rolling, base.lateral])
-    np.testing.assert_allclose(residual @ rows, 0.0, atol=1000 * EPS * base.condition)
+    np.testing.assert_allclose(residual @ rows, 0.0, rtol=0, atol=1000 * EPS * base.condition)
     best = base.forward(rates)
     other = Twist.from_array(best.as_array() + 0.1 * rng.normal(size=3))
     assert np.all(np.sum(base.residual(rates, other) ** 2, -1) >= np.sum(residual**2, -1))
@@ -100,7 +100,7 @@ def test_same_motion_from_another_origin(seed):
         x, y = T_new_old.act(w.x, w.y)
         moved.append(Wheel(x, y, w.drive_angle + T_new_old.theta, w.radius, w.roller_angle))
     np.testing.assert_allclose(
-        WheeledBase(moved).inverse(T_new_old.transform(twist)), WheeledBase(wheels).inverse(twist), atol=1e-10
+        WheeledBase(moved).inverse(T_new_old.transform(twist)), WheeledBase(wheels).inverse(twist), rtol=0, atol=1e-10
     )
 
 
@@ -115,16 +115,16 @@ def test_feasible_part(shape, seed, few):
     wanted = twists(rng, shape)
     answer = base.feasible(wanted)
     again = base.feasible(answer.twist, tolerance=1e-9)
-    np.testing.assert_allclose(again.twist.as_array(), answer.twist.as_array(), atol=1e-10)
+    np.testing.assert_allclose(again.twist.as_array(), answer.twist.as_array(), rtol=0, atol=1e-10)
     assert np.all(again.is_feasible)
     if base.lateral.size:
-        np.testing.assert_allclose(answer.twist.as_array() @ base.lateral.T, 0.0, atol=1e-10)
+        np.testing.assert_allclose(answer.twist.as_array() @ base.lateral.T, 0.0, rtol=0, atol=1e-10)
     if base.rank < 3:
         rates_of_undriven = base.inverse(Twist.from_array(base.mobility.undriven))
-        np.testing.assert_allclose(rates_of_undriven, 0.0, atol=1e-8)
+        np.testing.assert_allclose(rates_of_undriven, 0.0, rtol=0, atol=1e-8)
     scale = np.array([1.0, 1.0, base.mobility.length])
     np.testing.assert_allclose(
-        np.sum(answer.infeasible.as_array() * answer.twist.as_array() * scale**2, -1), 0.0, atol=1e-9
+        np.sum(answer.infeasible.as_array() * answer.twist.as_array() * scale**2, -1), 0.0, rtol=0, atol=1e-9
     )
     assert base.degrees_of_control == base.rank - base.mobility.constraint_rank == len(base.mobility.admissible)
 
@@ -136,10 +136,10 @@ def test_differential_textbook(half_track, left, right, rates):
     base = WheeledBase.differential(half_track=half_track, left_radius=left, right_radius=right)
     v, omega = evaluator(laws.differential_forward)(*rates, left, right, half_track)
     twist = base.forward(rates)
-    np.testing.assert_allclose(twist.as_array(), [v, 0.0, omega], atol=1e-14 / half_track)
+    np.testing.assert_allclose(twist.as_array(), [v, 0.0, omega], rtol=0, atol=1e-14 / half_track)
     back = evaluator(laws.differential_inverse)(v, omega, left, right, half_track)
-    np.testing.assert_allclose(back, rates, atol=1e-14 / min(left, right))
-    np.testing.assert_allclose(base.inverse(Twist(v, 0.0, omega)), rates, atol=1e-14 / min(left, right))
+    np.testing.assert_allclose(back, rates, rtol=0, atol=1e-14 / min(left, right))
+    np.testing.assert_allclose(base.inverse(Twist(v, 0.0, omega)), rates, rtol=0, atol=1e-14 / min(left, right))
 
 
 @given(half_length=lengths, half_width=lengths, radius=lengths, seed=seeds)
@@ -150,9 +150,11 @@ def test_mecanum_matrix(half_length, half_width, radius, seed):
     lever = half_length + half_width
     standard = np.array([[1, -1, -lever], [1, 1, lever], [1, 1, -lever], [1, -1, lever]])
     base = WheeledBase.mecanum(radius=radius, half_length=half_length, half_width=half_width)
-    np.testing.assert_allclose(base.inverse(twist) * radius, standard @ twist.as_array(), atol=1e-14 * (1 + lever) * 9)
+    np.testing.assert_allclose(
+        base.inverse(twist) * radius, standard @ twist.as_array(), rtol=0, atol=1e-14 * (1 + lever) * 9
+    )
     wrong = WheeledBase.mecanum(radius=radius, half_length=half_length, half_width=half_width, rollers="O")
-    np.testing.assert_allclose(np.abs(wrong.rolling[:, 2]), abs(half_length - half_width), atol=1e-15 * 8)
+    np.testing.assert_allclose(np.abs(wrong.rolling[:, 2]), abs(half_length - half_width), rtol=0, atol=1e-15 * 8)
 
 
 @pytest.mark.parametrize("shape", SHAPES)
@@ -165,13 +167,13 @@ def test_centre_of_rotation_stands_still(shape, seed, omega):
     icr = Icr(twist)
     px, py = icr.body[..., 0], icr.body[..., 1]
     scale = 1.0 + np.hypot(px, py)
-    np.testing.assert_allclose((twist.vx - omega * py) / scale, 0.0, atol=10 * EPS)
-    np.testing.assert_allclose((twist.vy + omega * px) / scale, 0.0, atol=10 * EPS)
+    np.testing.assert_allclose((twist.vx - omega * py) / scale, 0.0, rtol=0, atol=10 * EPS)
+    np.testing.assert_allclose((twist.vy + omega * px) / scale, 0.0, rtol=0, atol=10 * EPS)
     pose = Pose(*rng.normal(size=(3, *shape)))
     later = pose.step(twist.during(0.8))
     before, after = icr.in_world(pose), icr.in_world(later)
-    np.testing.assert_allclose((after - before) / scale[..., None], 0.0, atol=50 * EPS)
-    np.testing.assert_allclose((pose @ icr.body - before) / scale[..., None], 0.0, atol=50 * EPS)
+    np.testing.assert_allclose((after - before) / scale[..., None], 0.0, rtol=0, atol=50 * EPS)
+    np.testing.assert_allclose((pose @ icr.body - before) / scale[..., None], 0.0, rtol=0, atol=50 * EPS)
 
 
 @given(half_track=lengths, v=speeds, omega=speeds, pose=st.tuples(speeds, speeds, speeds))
@@ -183,7 +185,7 @@ def test_wheel_speeds_about_the_centre(half_track, v, omega, pose):
     icr = Icr(Twist(v, 0.0, omega))
     left, right = wheel_centre_speeds(icr.radius, omega, half_track=half_track)
     centres = base.wheel_velocities(icr.twist)
-    np.testing.assert_allclose(centres, [[left, 0.0], [right, 0.0]], atol=1e-13)
+    np.testing.assert_allclose(centres, [[left, 0.0], [right, 0.0]], rtol=0, atol=1e-13)
     assert icr.radius == v / omega
     # The difference of the wheel speeds carries the rounding of the speeds themselves.
     slack = 8 * EPS * (abs(v) / (half_track * abs(omega)) + 1) * (abs(icr.radius) + half_track)
@@ -191,7 +193,7 @@ def test_wheel_speeds_about_the_centre(half_track, v, omega, pose):
     x, y, theta = pose
     np.testing.assert_allclose(
         icr.in_world(Pose(*pose)), [x - icr.radius * np.sin(theta), y + icr.radius * np.cos(theta)],
-        atol=20 * EPS * (10 + abs(icr.radius)),
+        rtol=0, atol=20 * EPS * (10 + abs(icr.radius)),
     )  # fmt: skip
 
 
@@ -203,7 +205,7 @@ def test_bracket_is_the_commutator(seed):
     hats = [np.array([[0.0, -omega, vx], [omega, 0.0, vy], [0.0, 0.0, 0.0]]) for vx, vy, omega in (one, other)]
     bracket = evaluator(laws.twist_bracket)(*one, *other)
     commutator = hats[0] @ hats[1] - hats[1] @ hats[0]
-    np.testing.assert_allclose(bracket, [commutator[0, 2], commutator[1, 2], commutator[1, 0]], atol=100 * EPS)
+    np.testing.assert_allclose(bracket, [commutator[0, 2], commutator[1, 2], commutator[1, 0]], rtol=0, atol=100 * EPS)
 
 
 @given(seed=seeds, heading=speeds)
@@ -215,7 +217,7 @@ def test_constraints(seed, heading):
     matrix = base.constraints(heading)
     assert matrix.shape == (base.mobility.constraint_rank, 3)
     for free in base.mobility.free:
-        np.testing.assert_allclose(matrix @ Twist.from_array(free).in_world(heading), 0.0, atol=1e-10)
+        np.testing.assert_allclose(matrix @ Twist.from_array(free).in_world(heading), 0.0, rtol=0, atol=1e-10)
     if len(matrix):
         assert np.abs(matrix @ twists(rng, ()).in_world(heading)).max() > 1e-9
 
@@ -241,7 +243,7 @@ def test_saturation(policy, shape, seed):
         np.testing.assert_array_equal(done.rates, np.clip(rates, -limits, limits))
         return
     scale = np.stack(np.broadcast_arrays(share, share, turn_share), -1)
-    np.testing.assert_allclose(done.twist.as_array(), scale * done.wanted.as_array(), atol=1e-12)
+    np.testing.assert_allclose(done.twist.as_array(), scale * done.wanted.as_array(), rtol=0, atol=1e-12)
     turns_fully = np.all(np.abs(base.inverse(Twist(0.0, 0.0, done.wanted.omega))) <= limits, axis=-1)
     full = np.any(np.abs(done.rates) >= limits * (1 - 1e-12), axis=-1)
     if policy == "scale":
@@ -264,5 +266,5 @@ def test_increments_and_accelerations(seed):
     np.testing.assert_array_equal(base.twist_rates(values), twist)
     np.testing.assert_array_equal(base.rotations(base.displacement(values)), base.wheel_accelerations(twist))
     np.testing.assert_allclose(
-        base.forward(values * 0.5).during(2.0).as_array(), base.displacement(values).as_array(), atol=1e-10
+        base.forward(values * 0.5).during(2.0).as_array(), base.displacement(values).as_array(), rtol=0, atol=1e-10
     )

@@ -23,14 +23,14 @@ def test_rotation_of_coordinates():
     theta, C_0 = 0.6, np.array([2.0, 3.0])
     R = np.array([[cos(theta), -sin(theta)], [sin(theta), cos(theta)]])
     C_1 = np.array(Pose(0.0, 0.0, theta).act_inverse(*C_0))
-    np.testing.assert_allclose(C_1, R.T @ C_0, atol=1e-15)
-    np.testing.assert_allclose(C_1, coordinates(C_0, R.T), atol=1e-15)  # the rows of R^T are the basis vectors
+    np.testing.assert_allclose(C_1, R.T @ C_0, rtol=0, atol=1e-15)
+    np.testing.assert_allclose(C_1, coordinates(C_0, R.T), rtol=0, atol=1e-15)  # the rows of R^T are the basis vectors
     printed = np.diag(C_1) @ R.T  # X_1 (cos, sin) and Y_1 (-sin, cos): what is printed for the two unit vectors
     assert np.abs(np.linalg.norm(printed, axis=1) - 1.0).min() > 0.1
     assert np.abs(printed @ C_0 - C_1).max() > 0.1
     # Read as the matrix that the arm's chapter calls R_1^0 = [[c, -s], [s, c]], it turns the wrong way.
     assert np.abs(R @ C_0 - C_1).max() > 0.1
-    np.testing.assert_allclose(R @ C_1, C_0, atol=1e-15)
+    np.testing.assert_allclose(R @ C_1, C_0, rtol=0, atol=1e-15)
 
 
 def test_net_rotation_is_a_difference():
@@ -84,7 +84,7 @@ def row_of(position, distance=0.2):
 def test_three_sign_conventions_become_one(wheel):
     """004 omni (1), (3), (5): each row measures its angle otherwise; one row serves all from the position angle."""
     for a in (pi / 6, 0.4, pi / 2):
-        np.testing.assert_allclose(row_of(POSITION[wheel](a)), [*PRINTED[wheel](a), 0.2], atol=1e-15)
+        np.testing.assert_allclose(row_of(POSITION[wheel](a)), [*PRINTED[wheel](a), 0.2], rtol=0, atol=1e-15)
     # Taken as printed, with one meaning of alpha for all, they are three different wheels.
     others = [PRINTED[k](0.4) for k in range(3) if k != wheel]
     assert min(hypot(x - PRINTED[wheel](0.4)[0], y - PRINTED[wheel](0.4)[1]) for x, y in others) > 0.1
@@ -95,9 +95,9 @@ def test_the_notes_three_wheels_are_120_degrees_apart():
     angles = [pi / 6, pi / 6, pi / 2]
     J = np.array([[*row(a), 0.2] for row, a in zip(PRINTED, angles, strict=True)])
     base = WheeledBase.omni(3, wheel_distance=0.2, radius=0.05, first_angle=pi / 2)
-    np.testing.assert_allclose(base.rolling, J[[2, 0, 1]], atol=1e-15)  # at 90, 210 and 330 deg
+    np.testing.assert_allclose(base.rolling, J[[2, 0, 1]], rtol=0, atol=1e-15)  # at 90, 210 and 330 deg
     xi = np.array([0.3, -0.2, 1.1])
-    np.testing.assert_allclose(base.inverse(Twist(*xi)) * 0.05, (J @ xi)[[2, 0, 1]], atol=1e-15)
+    np.testing.assert_allclose(base.inverse(Twist(*xi)) * 0.05, (J @ xi)[[2, 0, 1]], rtol=0, atol=1e-15)
 
 
 def test_theta0_plus_thetadot3_is_90_degrees_plus_alpha3():
@@ -107,7 +107,7 @@ def test_theta0_plus_thetadot3_is_90_degrees_plus_alpha3():
     right = (cos(pi / 2 + alpha), cos(alpha))
     assert abs(hypot(*printed) - 1.0) > 0.1  # no direction at all
     assert hypot(*right) == pytest.approx(1.0)
-    np.testing.assert_allclose(row_of(alpha)[:2], right, atol=1e-15)
+    np.testing.assert_allclose(row_of(alpha)[:2], right, rtol=0, atol=1e-15)
 
 
 def test_lateral_rows_of_omni_wheels():
@@ -124,4 +124,4 @@ def test_one_row_for_every_wheel():
     """The row of an omni wheel at the position angle a is (-sin a, cos a, d), whichever wheel it is."""
     for a in np.linspace(-pi, pi, 13):
         row = evaluator(laws.rolling_row)(0.2 * cos(a), 0.2 * sin(a), float(a) + pi / 2, 0.0)
-        np.testing.assert_allclose(row, [-sin(a), cos(a), 0.2], atol=1e-15)
+        np.testing.assert_allclose(row, [-sin(a), cos(a), 0.2], rtol=0, atol=1e-15)

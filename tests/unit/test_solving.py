@@ -215,3 +215,32 @@ def test_a_table_has_a_line_for_every_iteration():
     assert len(lines) == len(report) + 1
     assert lines[0].split()[:2] == ["Iteration", "Evaluations"]
     assert [int(line.split()[0]) for line in lines[1:]] == list(range(len(report)))
+
+
+@pytest.mark.parametrize("rows", [1, 2, 3])
+def test_the_damped_step_is_the_one_of_the_normal_equations(rows):
+    slopes = np.random.default_rng(rows).uniform(-1.0, 1.0, (rows, 2))
+
+    def miss(x):
+        return x @ slopes.T - np.ones(rows)
+
+    report = least_squares(miss, [0.3, -0.2], jacobian=lambda _: slopes, damping=0.3).report
+    start, lam = np.array(report[0].x), report[1].damping
+    expected = np.linalg.solve(slopes.T @ slopes + lam * np.eye(2), -slopes.T @ miss(start))
+    assert lam == pytest.approx(0.3 * miss(start) @ miss(start))
+    assert np.allclose(np.array(report[1].x) - start, expected, atol=1e-14)
+
+
+@pytest.mark.parametrize("corner", [(0.0, 0.0), (3.0, 3.0), (0.0, 3.0)])
+def test_a_start_at_a_bound_leaves_it_and_a_blocked_entry_lets_the_others_go_on(corner):
+    def miss(x):
+        return np.stack((x[..., 0] - 1.0, x[..., 1] - 2.0), axis=-1)
+
+    assert least_squares(miss, corner, bounds=(0.0, 3.0)).converged
+
+    def bent(x):
+        return np.stack((x[..., 0] + x[..., 1] - 5.0, x[..., 0] - x[..., 1]), axis=-1)
+
+    held = least_squares(bent, [1.0, 0.0], bounds=([0.0, 0.0], [1.0, 9.0]))
+    assert np.allclose(held.x, [1.0, 2.5], atol=1e-6)
+    assert held.iterations < 20

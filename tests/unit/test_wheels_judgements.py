@@ -51,9 +51,9 @@ def test_control_against_configuration():
 def test_the_constraint_of_the_differential_drive():
     """xdot sin theta - ydot cos theta = 0, once for both wheels; an axle ahead of the origin adds its lever."""
     theta = 0.7
-    np.testing.assert_allclose(DIFFERENTIAL.constraints(theta), [[-sin(theta), cos(theta), 0.0]], atol=1e-15)
+    np.testing.assert_allclose(DIFFERENTIAL.constraints(theta), [[-sin(theta), cos(theta), 0.0]], rtol=0, atol=1e-15)
     ahead = WheeledBase([Wheel(0.3, 0.2, 0.0, 0.1), Wheel(0.3, -0.2, 0.0, 0.1)])
-    np.testing.assert_allclose(ahead.constraints(theta), [[-sin(theta), cos(theta), 0.3]], atol=1e-15)
+    np.testing.assert_allclose(ahead.constraints(theta), [[-sin(theta), cos(theta), 0.3]], rtol=0, atol=1e-15)
     assert ahead.cannot == ("cannot move its point (0.3, 0) m sideways: wheel_1 and wheel_2 would slide",)
 
 
@@ -85,7 +85,7 @@ def test_drive_directions_through_one_point():
     assert (base.rank, base.condition, base.is_holonomic) == (2, inf, False)
     assert "turn about (0.5, 0) m: all lines of traction pass through (0.5, 0) m (rank 2 of 3)" in base.cannot[0]
     centred = omni_at(*((cos(a), sin(a), a) for a in (0.0, 2 * pi / 3, 4 * pi / 3)))
-    np.testing.assert_allclose(centred.singular_values, [np.sqrt(1.5), np.sqrt(1.5), 0.0], atol=1e-15)
+    np.testing.assert_allclose(centred.singular_values, [np.sqrt(1.5), np.sqrt(1.5), 0.0], rtol=0, atol=1e-15)
     assert "turn on the spot" in centred.cannot[0]
 
 
@@ -108,7 +108,7 @@ def test_mecanum_rollers_mounted_the_wrong_way():
     assert kinds(wrong)[0] is FindingKind.MIRRORED_ROLLERS
     assert "a lever of 0.1 m, mirrored ones by 0.5 m" in faults(wrong)[0]
     length = wrong.mobility.length
-    np.testing.assert_allclose(wrong.singular_values * (1, 1, length), [2.0, 2.0, 0.2], atol=1e-15)
+    np.testing.assert_allclose(wrong.singular_values * (1, 1, length), [2.0, 2.0, 0.2], rtol=0, atol=1e-15)
     square = WheeledBase.mecanum(radius=0.1, half_length=0.3, half_width=0.3, rollers="O")
     assert square.rank == 2
     assert [f.kind for f in square.diagnose() if f.is_fault] == [FindingKind.UNDRIVEN, FindingKind.MIRRORED_ROLLERS]
@@ -140,9 +140,9 @@ def test_all_wheels_on_the_origin():
 
 def test_infeasible_part():
     answer = DIFFERENTIAL.feasible(Twist([1.0, 1.0], [0.5, 0.0], 2.0))
-    np.testing.assert_allclose(answer.infeasible.as_array(), [[0.0, 0.5, 0.0], [0.0, 0.0, 0.0]], atol=1e-15)
+    np.testing.assert_allclose(answer.infeasible.as_array(), [[0.0, 0.5, 0.0], [0.0, 0.0, 0.0]], rtol=0, atol=1e-15)
     assert answer.is_feasible.tolist() == [False, True]
-    np.testing.assert_allclose(answer.gap, [0.5, 0.0], atol=1e-15)
+    np.testing.assert_allclose(answer.gap, [0.5, 0.0], rtol=0, atol=1e-15)
     assert answer.status is TwistStatus.PARTLY_FEASIBLE
     with pytest.raises(NoSolution, match=r"cannot move sideways.*short by 0\.5 m/s") as caught:
         answer.or_raise()
@@ -232,8 +232,8 @@ def test_slip_threshold_follows_from_the_noise(count):
     # Five standard deviations of a share, and of a mean of chi-square values.
     assert np.mean(slip.is_slipping) == pytest.approx(0.05, abs=5 * np.sqrt(0.05 * 0.95 / samples))
     assert np.mean(slip.statistic) == pytest.approx(count - 3, abs=5 * np.sqrt(2 * (count - 3) / samples))
-    np.testing.assert_allclose(np.std(slip.scores, axis=0), 1.0, atol=5 / np.sqrt(samples))
-    np.testing.assert_allclose(base.residual(rates, slip.twist)[:, :count], slip.residual, atol=1e-12)
+    np.testing.assert_allclose(np.std(slip.scores, axis=0), 1.0, rtol=0, atol=5 / np.sqrt(samples))
+    np.testing.assert_allclose(base.residual(rates, slip.twist)[:, :count], slip.residual, rtol=0, atol=1e-12)
 
 
 def test_slip_of_one_wheel_shows_and_is_named_by_two_redundant_ones():
@@ -251,7 +251,7 @@ def test_slip_needs_redundancy():
     for base in (OMNI, DIFFERENTIAL):
         slip = base.slip(np.arange(len(base.wheels)) + 1.0, 0.1)
         assert (slip.status, slip.degrees, slip.threshold, slip.is_slipping) == (SlipStatus.BLIND, 0, inf, False)
-        np.testing.assert_allclose(slip.residual, 0.0, atol=1e-15)
+        np.testing.assert_allclose(slip.residual, 0.0, rtol=0, atol=1e-15)
     for kwargs in ({"false_alarm": 0.0}, {"false_alarm": 1.0}, {"false_alarm": np.nan}):
         with pytest.raises(InvalidValue, match="false_alarm"):
             MECANUM.slip(np.zeros(4), 0.1, **kwargs)

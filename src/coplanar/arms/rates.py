@@ -20,8 +20,10 @@ _damped_gain = evaluator(laws.damped_gain)
 
 @dataclass(frozen=True, slots=True)
 class Rates:
-    """Two answers to one wanted velocity. The exact rates grow as 1/sigma near a singular posture; the damped ones
-    stay below |velocity|/(2 lambda) and lag behind instead.
+    """Two answers to one wanted velocity: exact, J^+ v, and damped, J^T (J J^T + lambda^2 I)^-1 v.
+
+    The exact rates grow as 1/sigma near a singular posture; the damped ones stay below |v|/(2 lambda) and lag behind
+    instead. Rows and columns in metres and in radians are weighed as they are.
 
     Attributes:
         exact: J^+ v: the exact rates for n = m, of minimum norm for n > m, least squares for n < m and where J has
@@ -32,7 +34,7 @@ class Rates:
         singular_values: Of J, largest first, shape (..., min(m, n)).
         rank: How many of them count, an int or an array.
         damping: lambda [m/rad].
-    """  # fmt: skip  # noqa: D205
+    """
 
     exact: np.ndarray
     damped: np.ndarray

@@ -208,9 +208,18 @@ class Integral:
         count = panel_count(panels)
         half = 0.5 * (upper - lower) / count + self._where(panels <= count, 0.0, math.nan)
         total: Any = None
-        for panel in range(count):
-            middle = lower + (2 * panel + 1) * half
-            for node, weight in zip(*rule(self.points), strict=True):
-                terms = [weight * f for f in self.integrand(middle + node * half, *parameters)]
-                total = terms if total is None else [t + f for t, f in zip(total, terms, strict=True)]
+        for k in range(count):  # panel by panel, so that rounding does not grow with every node
+            panel = self._panel(lower + (2 * k + 1) * half, half, parameters)
+            total = panel if total is None else _sums(total, panel)
         return tuple(half * t for t in total)
+
+    def _panel(self, middle: Any, half: Any, parameters: Any) -> Any:
+        total: Any = None
+        for node, weight in zip(*rule(self.points), strict=True):
+            terms = [weight * f for f in self.integrand(middle + node * half, *parameters)]
+            total = terms if total is None else _sums(total, terms)
+        return total
+
+
+def _sums(one: Any, other: Any) -> Any:
+    return [a + b for a, b in zip(one, other, strict=True)]

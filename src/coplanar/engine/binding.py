@@ -16,7 +16,7 @@ from coplanar.engine import arrays
 PRIMITIVES: frozenset[str] = frozenset(
     name
     for name, value in vars(arrays).items()
-    if isinstance(value, FunctionType) and name not in ("panel_count", "rule")
+    if isinstance(value, FunctionType) and not name.startswith("_") and name not in ("panel_count", "rule")
 )
 
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from coplanar.engine.evaluator import FIRST_COMPILED_ROWS, Evaluator, can_compile, evaluator
-from coplanar.engine.foreign import is_foreign, namespace_of
+from coplanar.engine.foreign import alike, is_foreign
 
 Columns = Sequence[Any]
 
@@ -63,8 +63,8 @@ class Scan:
 
     def on_text(self, state: Columns, tables: Columns, constants: Columns, rows: tuple[int, ...], keep: str) -> Any:
         """One call of the law per step: floats for a single row, the NumPy text for more."""
-        law = self._evaluator.on_text if rows else self._evaluator.on_floats
-        now = tuple(np.broadcast_to(s, rows) if rows else float(s) for s in state)
+        law = self._evaluator.on_text if rows else self._evaluator
+        now = tuple(np.broadcast_to(s, rows).copy() if rows else float(s) for s in state)
         fixed = tuple(constants) if rows else tuple(float(c) for c in constants)
         steps = zip(*(table if rows else table.tolist() for table in tables), strict=True)
         history = [now]
@@ -89,11 +89,12 @@ class Scan:
         return tuple(out.reshape(rows) if rows else float(out[0]) for out in whole)
 
     def _on_foreign(self, initial: Columns, inputs: Columns, parameters: Columns, keep: str) -> Any:
-        xp = namespace_of(next(a for a in (*initial, *inputs, *parameters) if is_foreign(a)))
+        xp, arrays = alike((*initial, *inputs, *parameters))
         law = self._evaluator.on_namespace(xp)
-        tables, fixed = [xp.asarray(t) for t in inputs], [xp.asarray(c) for c in parameters]
-        rows = np.broadcast_shapes(*(np.shape(a) for a in (*initial, *parameters)), *(t.shape[1:] for t in tables))
-        now = tuple(xp.asarray(s) + xp.zeros(rows) for s in initial)
+        first, last = len(initial), len(initial) + len(inputs)
+        state, tables, fixed = arrays[:first], arrays[first:last], arrays[last:]
+        rows = np.broadcast_shapes(*(tuple(a.shape) for a in (*state, *fixed)), *(tuple(t.shape[1:]) for t in tables))
+        now = tuple(xp.broadcast_to(s, rows) for s in state)
         history = _fold(xp, lambda state, step: law(*state, *step, *fixed), now, tables)
         whole = tuple(xp.concatenate([n[None], h], 0) for n, h in zip(now, history, strict=True))
         return whole if keep == "all" else tuple(h[-1] for h in whole)

@@ -5,16 +5,17 @@ from __future__ import annotations
 import csv
 import os
 import secrets
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from coplanar.errors import InvalidValue
 
 
-def write_table(path: Path, columns: Mapping[str, np.ndarray]) -> Path:
-    """Columns (rows,) as comma-separated values with a header, 17 significant digits.
+def write_table(path: Path, columns: Mapping[str, Sequence[Any] | np.ndarray]) -> Path:
+    """Columns (rows,) of numbers or words as comma-separated values with a header, 17 significant digits.
 
     The text goes to a file beside ``path`` that then takes its place, so that nobody ever sees half a table.
     """
@@ -22,8 +23,8 @@ def write_table(path: Path, columns: Mapping[str, np.ndarray]) -> Path:
     try:
         with part.open("x", encoding="utf-8", newline="") as file:
             file.write(",".join(columns) + "\n")
-            for row in zip(*(c.tolist() for c in columns.values()), strict=True):
-                file.write(",".join([format(value, ".17g") for value in row]) + "\n")
+            for row in zip(*(np.asarray(c).tolist() for c in columns.values()), strict=True):
+                file.write(",".join(map(_cell, row)) + "\n")
         os.replace(part, path)
     finally:
         part.unlink(missing_ok=True)
@@ -45,10 +46,14 @@ def read_table(path: Path) -> dict[str, np.ndarray]:
     return dict(zip(names, np.array([_numbers(path, names, *row) for row in rows[1:]]).T, strict=True))
 
 
+def _cell(value: Any) -> str:
+    return value if isinstance(value, str) else format(value, ".17g")
+
+
 def _numbers(path: Path, names: list[str], line: int, cells: list[str]) -> list[float]:
     if len(cells) != len(names):
-        raise InvalidValue("path", f"{path}, line {line}", f"{len(names)} cells", f"it has {len(cells)}")
+        raise InvalidValue(f"line {line} of {path}", cells, f"{len(names)} cells", f"it has {len(cells)}")
     try:
         return [float(cell) for cell in cells]
     except ValueError as error:
-        raise InvalidValue("path", f"{path}, line {line}", "numbers", str(error)) from None
+        raise InvalidValue(f"line {line} of {path}", cells, "numbers", str(error)) from None

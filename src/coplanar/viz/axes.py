@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from typing import Any
 
@@ -105,7 +106,7 @@ def plot_linkage(joints: ArrayLike, ax: Axes | None = None, *, colours: Sequence
     """
     ax = plane(axes_or_new(ax))
     points = np.asarray(joints)
-    for i, (start, end) in enumerate(zip(points[:-1], points[1:], strict=True)):
+    for i, (start, end) in enumerate(itertools.pairwise(points)):
         style = {"color": colours[i % len(colours)]} if colours else {}
         ax.plot(*zip(start, end, strict=True), linewidth=6, alpha=alpha, solid_capstyle="round", zorder=3, **style)
     ax.plot(points[:, 0], points[:, 1], "o", color=ax.get_facecolor(), markeredgecolor="C5", markersize=6,

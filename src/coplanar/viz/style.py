@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Any
 
 from coplanar import checks
 
@@ -54,7 +55,7 @@ def theme_named(name: str) -> Theme:
     return THEMES[checks.choice("theme", name, THEMES)]
 
 
-def rc_params(theme: Theme) -> dict[str, object]:
+def rc_params(theme: Theme) -> dict[Any, Any]:
     """Matplotlib's settings for a theme."""
     from cycler import cycler
 

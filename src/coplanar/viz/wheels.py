@@ -27,14 +27,13 @@ def plot_base(base: WheeledBase, ax: Axes | None = None) -> Axes:
     for number, (wheel, radius) in enumerate(zip(base.wheels, base.radii, strict=True), 1):
         along = radius * np.array([np.cos(wheel.drive_angle), np.sin(wheel.drive_angle)])
         here = np.array([wheel.x, wheel.y])
-        ax.plot(
-            *np.column_stack([here - along, here + along]), linewidth=9, solid_capstyle="butt", color="C0", alpha=0.8
-        )
+        tyre = np.column_stack([here - along, here + along])
+        ax.plot(*tyre, linewidth=9, solid_capstyle="butt", color="C0", alpha=0.8)
         if wheel.roller_angle is not None:
             free = wheel.drive_angle + 0.5 * np.pi + wheel.roller_angle
             across = 0.5 * radius * np.array([np.cos(free), np.sin(free)])
             ax.plot(*np.column_stack([here - across, here + across]), linewidth=2, color="C1")
-        ax.annotate(str(number), tuple(1.22 * here), ha="center", va="center")
+        ax.annotate(str(number), tuple(0.72 * here), ha="center", va="center")
     ax.margins(0.25)
     if base.cannot:
         ax.set_title("; ".join(base.cannot), fontsize=9)

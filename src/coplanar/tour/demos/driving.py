@@ -11,7 +11,7 @@ from coplanar.integrators import integrate_ode
 from coplanar.motion import DrivingHistory, HolonomicMotion, Program, Ramp, Segment
 from coplanar.se2 import Pose
 from coplanar.tour.demo import Demo
-from coplanar.viz.axes import plane, plot_headings, plot_path, plot_series
+from coplanar.viz.axes import plot_headings, plot_path, plot_series
 from coplanar.viz.scene import Scene
 
 _ROBOT = np.array([(0.1 * np.cos(a), 0.1 * np.sin(a)) for a in np.linspace(0.0, 2.0 * pi, 37)])
@@ -41,8 +41,8 @@ def drive_square() -> Demo:
         headline=f"ends {gap:.3f} m from where it starts: the square does not close",
         check=f"eleven, ten, ten and nine steps of 0.1 m counted by hand: {error:.0e}",
         passed=bool(error < 1e-12 and round(float(sides.sum()), 9) == 4.0),
-        story="One-second pieces, alternately 1 m/s and a quarter turn per second. The time vector gives the first side "
-        "eleven samples and never drives the last one, so the path misses its start by a step in x and in y.",
+        story="One-second pieces, alternately 1 m/s and a quarter turn per second. The time vector gives the first "
+        "side eleven samples and never drives the last one, so the path misses its start by a step in x and in y.",
         tables={"run.csv": _table(history.t, path) | {"v": v, "omega": omega}},
         figure=figure,
         scene=Scene(history.t).trail(path[:, :2]).body(path, _ROBOT),
@@ -67,8 +67,8 @@ def arc_chain() -> Demo:
         headline=f"ends at ({path[-1, 0]:.4f}, {path[-1, 1]:.4f}) m, {np.degrees(path[-1, 2]):.1f} deg",
         check=f"DOP853 at 1e-12 over all pieces: {error:.0e} m",
         passed=bool(error < 1e-9),
-        story="Constant v and omega drive a circular arc, exactly, for any step; a line and a turn on the spot are arcs "
-        "too. Each piece starts where the one before ends, so that their transforms multiply.",
+        story="Constant v and omega drive a circular arc, exactly, for any step; a line and a turn on the spot are "
+        "arcs too. Each piece starts where the one before ends, so that their transforms multiply.",
         tables={"run.csv": _table(t, path)},
         figure=figure,
         scene=Scene(t).trail(path[:, :2]).body(path, _ROBOT),
@@ -106,7 +106,7 @@ def holonomic() -> Demo:
     motion = HolonomicMotion.from_accelerations([1.0, 1.5, 1.0, 1.5], accelerations)
     t = np.linspace(0.0, 5.0, 101)
     pose, velocity = motion.pose(Pose(), t), motion.velocity(t)
-    # Piecewise linear velocities sampled at their corners too: Simpson's rule on the samples is exact.
+    # The velocities are linear between their corners, all of which are sampled: trapezoids are exact.
     steps = velocity[:-1] + velocity[1:]
     error = float(np.abs(0.5 * 0.05 * steps.sum(axis=0)[:2] - pose.position[-1]).max())
 
@@ -122,8 +122,8 @@ def holonomic() -> Demo:
         headline=f"ends at ({pose.x[-1]:.3f}, {pose.y[-1]:.3f}) m with its heading unchanged",
         check=f"trapezoids under the velocities: {error:.0e} m",
         passed=bool(error < 1e-12),
-        story="Here vx and vy do not depend on the heading, so that each coordinate is the integral of its own velocity. "
-        "Three controls drive three coordinates; a differential drive has two.",
+        story="Here vx and vy do not depend on the heading, so that each coordinate is the integral of its own "
+        "velocity. Three controls drive three coordinates; a differential drive has two.",
         tables={"run.csv": _planar(t, pose.position, velocity)},
         figure=figure,
         scene=Scene(t).trail(pose.position).body(pose.as_array(), 0.7 * _square()),
@@ -153,8 +153,8 @@ def ramp() -> Demo:
         headline=f"vx arrives after {alone.durations[0]:.2f} s, vy after {alone.durations[1]:.2f} s",
         check=f"areas under the velocities: {error:.0e} m",
         passed=bool(error < 1e-12 and np.array_equal(velocity[-1], target)),
-        story="Each component moves at its own constant acceleration until it reaches its target, then holds. Reached at "
-        "different times, the targets bend the path in velocity space; synchronised ramps keep it straight.",
+        story="Each component moves at its own constant acceleration until it reaches its target, then holds. Reached "
+        "at different times, the targets bend the path in velocity space; synchronised ramps keep it straight.",
         tables={"run.csv": _planar(t, position, velocity)},
         figure=figure,
         scene=Scene(t).trail(position).moving_point(position),
@@ -166,15 +166,9 @@ def _driven(program: Program, step: float) -> tuple[np.ndarray, np.ndarray, floa
     t, poses = program.sample(Pose(), step)
     state, error = np.zeros(3), 0.0
     for piece, end in zip(program, program.poses(Pose()).as_array()[1:], strict=True):
-        states = integrate_ode(
-            _rates(piece),
-            [0.0, float(piece.duration)],
-            state,
-            method="DOP853",
-            relative_tolerance=1e-12,
-            absolute_tolerance=1e-13,
-        )
-        state = states[-1]
+        times = [0.0, float(piece.duration)]
+        tight = {"relative_tolerance": 1e-12, "absolute_tolerance": 1e-13}
+        state = integrate_ode(_rates(piece), times, state, method="DOP853", **tight)[-1]
         error = max(error, float(np.hypot(*(state - end)[:2])))
     return t, poses.as_array(), error
 

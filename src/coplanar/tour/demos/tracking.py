@@ -36,7 +36,8 @@ def track_astroid() -> Demo:
         check=f"roots of the characteristic polynomial: {error:.0e}",
         passed=bool(error < 1e-12 and _largest_error(run) < 0.02),
         story="A point ahead of the wheels can be driven in any direction. With kp = 100 1/s, kd = 0.5 and 10 ms the "
-        "loop has a pole at -1: it neither settles nor grows, and omega rings. The report says so before it runs.",
+        "loop has a pole at -1: what once alternates neither dies out nor grows. The report says so before it runs, "
+        "and that Runge-Kutta steps in place of Euler's would make the same gains diverge.",
     )
 
 

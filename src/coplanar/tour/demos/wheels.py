@@ -41,11 +41,11 @@ def rolling_wheel() -> Demo:
         headline=f"contact 0 m/s, centre {wheel.centre_speed(rate):.1f} m/s, top {top:.1f} m/s",
         check=f"distance from the contact times the turn rate: {error:.0e} m/s",
         passed=bool(error < 1e-15 and speed[0] == 0.0),
-        story="The contact point stands still for an instant, and the wheel turns about it: the top moves twice as fast "
-        "as the centre, and a rim point draws a cycloid.",
+        story="The contact point stands still for an instant, and the wheel turns about it: the top moves twice as "
+        "fast as the centre, and a rim point draws a cycloid.",
         tables={"run.csv": {"beta": beta, "vx": velocity[:, 0], "vy": velocity[:, 1]}},
         figure=figure,
-        scene=_rolling_scene(wheel, rate, turned, path),
+        scene=_rolling_scene(wheel.radius, rate, turned, path),
     )
 
 
@@ -65,7 +65,7 @@ def omni_three() -> Demo:
         ax.quiver(0.0, 0.0, OMNI_TWIST.vx, OMNI_TWIST.vy, angles="xy", scale_units="xy", scale=4.0, color="C1")
         ax.set_title(f"v = ({OMNI_TWIST.vx}, {OMNI_TWIST.vy}) m/s, omega = {OMNI_TWIST.omega} rad/s")
         for wheel, rate in zip(base.wheels, rates, strict=True):
-            ax.annotate(f"{rate:+.2f} rad/s", (wheel.x, wheel.y), textcoords="offset points", xytext=(10, 10))
+            ax.annotate(f"{rate:+.2f} rad/s", (1.5 * wheel.x, 1.5 * wheel.y), ha="center", va="center")
 
     return Demo(
         name="omni-three",
@@ -81,11 +81,11 @@ def omni_three() -> Demo:
     )
 
 
-def _rolling_scene(wheel: RollingWheel, rate: float, turned: np.ndarray, path: np.ndarray) -> Scene:
-    centre = 0.3 * turned
+def _rolling_scene(radius: float, rate: float, turned: np.ndarray, path: np.ndarray) -> Scene:
+    centre = radius * turned
     around = np.linspace(0.0, 2.0 * pi, 49)
-    rim = 0.3 * np.column_stack([np.cos(around), np.sin(around)])
-    poses = np.column_stack([centre, np.full_like(centre, 0.3), -turned - 0.5 * pi])
+    rim = radius * np.column_stack([np.cos(around), np.sin(around)])
+    poses = np.column_stack([centre, np.full_like(centre, radius), -turned - 0.5 * pi])
     road = [(-0.4, 0.0), (float(centre[-1]) + 0.4, 0.0)]
     return Scene(turned / rate).curve(road).body(poses, rim).trail(path).moving_point(path)
 
