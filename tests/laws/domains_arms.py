@@ -38,6 +38,18 @@ def _rings(columns):
     return [x, y, inner, inner + width]
 
 
+def _turns(columns):
+    x, y, elbow, l1, l2, _, tolerance, rest = columns
+    x, y, l1, l2, elbow = _two_links([x, y, l1, l2, elbow])
+    return [x, y, elbow, l1, l2, np.abs(l1 - l2), 1e-6 * np.abs(tolerance), rest]
+
+
+def _reach(columns):
+    """Targets whose status is not a matter of the last digit."""
+    x, y, inner, width, tolerance = columns
+    return [np.round(x, 1) + 0.01, np.round(y, 1), 0.0 * x + 0.55, 0.95 + np.abs(np.round(width, 1)), 0.0 * x + 1e-3]
+
+
 def _off_the_jumps(columns):
     """Angles whose whole turns are not a matter of the last digit."""
     angle, near, *limits = columns
@@ -61,4 +73,7 @@ DOMAIN = {
     arms.turn_within: _off_the_jumps,
     arms.two_link_inverse: _two_links,
     arms.two_link_rates: _rates,
+    arms.two_link_reach: _reach,
+    arms.two_link_triangle: lambda columns: _two_links(columns),
+    arms.two_link_turns: _turns,
 }

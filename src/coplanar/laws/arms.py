@@ -19,6 +19,16 @@ def link(x, y, angle, length):
     return x + length * c, y + length * s
 
 
+def joint_link(x, y, angle, q, carry, turns, bend, length, slides):
+    """The next link's end and direction: phi = carry phi_before + turns q + bend, P += (l + slides q) [cos, sin].
+
+    carry is 1, or 0 for an absolute angle; turns and slides are 1 and 0 at a revolute joint, 0 and 1 at a prismatic.
+    """
+    phi = carry * angle + turns * q + bend
+    px, py = link(x, y, phi, length + slides * q)
+    return px, py, phi
+
+
 def link_velocity(vx, vy, angle, rate, length, length_rate):
     """Qdot = Pdot + l phidot [-sin phi, cos phi] + ldot [cos phi, sin phi]."""
     s, c = sincos(angle)
@@ -57,6 +67,20 @@ def elbow_sides(r, l1, l2):
     return sqrt((outer - r) * (outer + r)), sqrt((r - inner) * (r + inner))
 
 
+def two_link_triangle(x, y, l1, l2):
+    """Radius r, 2 l1 times the second link's reach along and across the first, r^2 + l1^2 - l2^2 and a b, and |q2|."""
+    r = hypot(x, y)
+    a, b = elbow_sides(r, l1, l2)
+    return r, r * r + (l1 - l2) * (l1 + l2), a * b, 2.0 * atan2(a, b)
+
+
+def first_direction(x, y, k1, k2):
+    """Direction of the first link, atan2(k1 y - k2 x, k1 x + k2 y); 0 where it is free."""
+    sine, cosine = k1 * y - k2 * x, k1 * x + k2 * y
+    free = (sine == 0.0) & (cosine == 0.0)
+    return atan2(sine, where(free, 1.0, cosine))
+
+
 def two_link_inverse(x, y, l1, l2, elbow):
     """Joints (q1, q2) with the tip at (x, y), q2 relative; elbow = +1 or -1 is the sign of sin q2.
 
@@ -64,13 +88,21 @@ def two_link_inverse(x, y, l1, l2, elbow):
     which are 2 l1 times l1 + l2 cos q2 and l2 sin q2. Out of reach: the arm points at the target, stretched or
     folded. On the base q1 is free, and 0.
     """
-    r = hypot(x, y)
-    a, b = elbow_sides(r, l1, l2)
-    k1 = r * r + (l1 - l2) * (l1 + l2)
-    k2 = elbow * a * b
-    sine, cosine = k1 * y - k2 * x, k1 * x + k2 * y
-    free = (sine == 0.0) & (cosine == 0.0)
-    return atan2(sine, where(free, 1.0, cosine)), 2.0 * elbow * atan2(a, b)
+    _, k1, k2, bend = two_link_triangle(x, y, l1, l2)
+    return first_direction(x, y, k1, elbow * k2), elbow * bend
+
+
+def two_link_turns(x, y, elbow, l1, l2, inner, tolerance, rest):
+    """The two-link inverse with the first link at ``rest`` where it is free: the target is on its axis, and reached."""
+    r, k1, k2, bend = two_link_triangle(x, y, l1, l2)
+    free = (r == 0.0) | ((r <= tolerance) & (inner - r <= tolerance))
+    return where(free, rest, first_direction(x, y, k1, elbow * k2)), elbow * bend
+
+
+def two_link_reach(x, y, inner, outer, tolerance):
+    """Gap to the ring, and how the target stands: 0 reached, 1 and on the axis, 2 beyond the ring, 3 in its hole."""
+    r, gap = hypot(x, y), ring_gap(x, y, inner, outer)
+    return gap, where(gap <= tolerance, where(r <= tolerance, 1.0, 0.0), where(r > outer, 2.0, 3.0))
 
 
 def elbow_sine(x, y, l1, l2):
