@@ -177,3 +177,8 @@ def axis_angle(ax, ay):
     """Direction of an undirected axis, in (-pi/2, pi/2]."""
     angle = atan2(ay, ax)
     return where(angle > 0.5 * PI, angle - PI, where(angle <= -0.5 * PI, angle + PI, angle))
+
+
+def task_error(x, y, angle, target_x, target_y, heading, weight):
+    """Tool less target [m]; the turn between them, in (-pi, pi], counts ``weight`` metres a radian."""
+    return x - target_x, y - target_y, weight * wrap(angle - heading)
