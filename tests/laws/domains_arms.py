@@ -56,6 +56,12 @@ def _off_the_jumps(columns):
     return [np.round(angle, 1) + 0.01, np.round(near, 1), *_ordered(limits)]
 
 
+def _joints_off_the_jumps(columns):
+    turn, before, bend, near, *limits = columns
+    turn, near, *limits = _off_the_jumps([turn, near, *limits])
+    return [turn, np.round(before, 1), np.round(bend, 1), near, *limits]
+
+
 def _ordered(limits):
     if not limits:
         return []
@@ -64,8 +70,11 @@ def _ordered(limits):
 
 
 DOMAIN = {
+    arms.chosen_elbow: lambda columns: [np.round(c) for c in columns],
     arms.elbow_sides: _sides,
     arms.elbow_sine: _two_links,
+    arms.joint_near: _joints_off_the_jumps,
+    arms.joint_within: _joints_off_the_jumps,
     arms.ring_gap: _rings,
     arms.ring_nearest: _rings,
     arms.turn_near: _off_the_jumps,
@@ -74,6 +83,6 @@ DOMAIN = {
     arms.two_link_inverse: _two_links,
     arms.two_link_rates: _rates,
     arms.two_link_reach: _reach,
-    arms.two_link_triangle: lambda columns: _two_links(columns),
+    arms.two_link_triangle: _two_links,
     arms.two_link_turns: _turns,
 }

@@ -73,7 +73,7 @@ def plan_of(chain: Chain) -> Plan:
         turns_tool=turns_tool,
         mounted=(tool.x, tool.y) != (0.0, 0.0),
         at_origin=base.parts == (0.0, 0.0, 0.0),
-        plain=chain.angles == "relative" and not any(chain.bends) and chain.limits is None and lean == 0.0,
+        plain=chain.joints == "RR" and chain.angles == "relative" and not any(chain.bends) and chain.limits is None and lean == 0.0,
         position=position,
         pose=_two_links(chain.links[0], chain.links[1], 0.0) if chain.joints == "RRR" else None,
         table=ChainTable(

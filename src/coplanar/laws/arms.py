@@ -154,6 +154,24 @@ def turn_within(angle, near, lower, upper):
     return angle + TAU * where(above > most, most, above)
 
 
+def joint_near(turn, before, bend, near):
+    """Joint of a link: its turn, on top of the direction before where angles are absolute, less its bend; near ``near``."""
+    return turn_near(turn + before - bend, near)
+
+
+def joint_within(turn, before, bend, near, lower, upper):
+    """The same within limits, and whether it is: 1 or 0."""
+    q = turn_within(turn + before - bend, near, lower, upper)
+    return q, where((q >= lower) & (q <= upper), 1.0, 0.0)
+
+
+def chosen_elbow(off_up, off_down, wish, inside_up, inside_down):
+    """+1 or -1: the only branch inside the limits, else the wished one, else the one less far off; +1 of equals."""
+    nearer = where(off_down < off_up, -1.0, 1.0)
+    wanted = where(wish == 0.0, nearer, wish)
+    return where(inside_up == inside_down, wanted, where(inside_up > inside_down, 1.0, -1.0))
+
+
 def turn_onto(angle, near, lower, upper):
     """Of [lower, upper], what is nearest to ``angle`` around the circle: a turn of it inside, or the nearer end."""
     inside = turn_within(angle, near, lower, upper)
