@@ -46,8 +46,14 @@ def _turns(columns):
 
 def _reach(columns):
     """Targets whose status is not a matter of the last digit."""
-    x, y, inner, width, tolerance = columns
-    return [np.round(x, 1) + 0.01, np.round(y, 1), 0.0 * x + 0.55, 0.95 + np.abs(np.round(width, 1)), 0.0 * x + 1e-3]
+    x, y, _, width, tolerance = columns
+    return [
+        np.round(x, 1) + 0.01,
+        np.round(y, 1),
+        0.0 * x + 0.55,
+        0.95 + np.abs(np.round(width, 1)),
+        0.0 * tolerance + 1e-3,
+    ]
 
 
 def _off_the_jumps(columns):

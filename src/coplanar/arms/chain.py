@@ -95,7 +95,7 @@ class Chain:
             >>> tool.as_array().round(12).tolist()
             [1.0, 1.0, 1.570796326795]
         """
-        joints = self._joints(q)
+        joints = self.joints_of(q)
         if self._in_loops(joints):
             return self._rows(joints, task=None)[0]
         posture = Posture.of(self, joints)
@@ -113,8 +113,8 @@ class Chain:
             >>> tool.x, jacobian[1].tolist()
             (1.5, [1.5, 0.5])
         """
-        checks.choice("task", task, TASKS)
-        joints = self._joints(q)
+        _check_task(task)
+        joints = self.joints_of(q)
         if self._in_loops(joints):
             pose, jacobian = self._rows(joints, task=task)
             return pose, np.asarray(jacobian)
@@ -135,10 +135,12 @@ class Chain:
             >>> Chain((1.0, 0.5)).points([0.0, 0.0]).tolist()
             [[0.0, 0.0], [1.0, 0.0], [1.5, 0.0]]
         """
-        joints = self._joints(q)
+        joints = self.joints_of(q)
         if self._in_loops(joints):
             points = np.empty((*joints.shape[:-1], self.n + (2 if self.plan.mounted else 1), 2))
-            linkage.places(self.plan.table, joints.reshape(-1, self.n), None, points.reshape(-1, *points.shape[-2:]), None)
+            linkage.places(
+                self.plan.table, joints.reshape(-1, self.n), None, points.reshape(-1, *points.shape[-2:]), None
+            )
             return points
         posture = Posture.of(self, joints)
         corners = [*posture.points, posture.tip] if self.plan.mounted else posture.points
@@ -164,8 +166,8 @@ class Chain:
             [[0.0, 0.0], [1.5, 0.5], [1.0, 1.0]]
         """
         if task not in TASKS:
-            checks.choice("task", task, TASKS)
-        joints = self._joints(q)
+            _check_task(task)
+        joints = self.joints_of(q)
         if self._in_loops(joints):
             return np.asarray(self._rows(joints, task=task, pose=False)[1])
         return _matrix(columns(self, Posture.of(self, joints)), task)
@@ -185,7 +187,7 @@ class Chain:
             >>> Chain((1.0, 0.5)).jacobian_dot([0.0, 0.0], [1.0, 0.0], task="position").tolist()
             [[-1.5, -0.5], [0.0, 0.0]]
         """
-        checks.choice("task", task, TASKS)
+        _check_task(task)
         at, rates = self.checked_joints("q", q), self.checked_joints("q_rate", q_rate)
         checks.broadcast(q=at, q_rate=rates)
         return _matrix(column_rates(self, Posture.of(self, at), rates), task)
@@ -201,14 +203,14 @@ class Chain:
         inside = ((joints >= self.lower - tolerance) & (joints <= self.upper + tolerance)).all(axis=-1)
         return bool(inside) if np.ndim(inside) == 0 else inside
 
-    def _joints(self, q: ArrayLike) -> Any:
-        """Checked joints: a list of floats for one configuration, otherwise an array of shape (..., n)."""
+    def joints_of(self, q: ArrayLike, name: str = "q") -> Any:
+        """Checked joints as they are evaluated: floats of one configuration in a list, many in an array (..., n)."""
         values = q.tolist() if type(q) is np.ndarray and q.ndim == 1 and q.dtype == np.float64 else q
         if type(values) in (list, tuple) and _FLOAT.issuperset(map(type, values)) and len(values) == self.n:
             total = sum(map(abs, values))
             if total < math.inf:
                 return list(values)
-        checked = self.checked_joints("q", q)
+        checked = self.checked_joints(name, q)
         return checked.tolist() if type(checked) is np.ndarray and checked.ndim == 1 else checked
 
     def _in_loops(self, joints: Any) -> bool:
@@ -233,5 +235,12 @@ class Chain:
 
 def _matrix(table: list[tuple[Any, Any, float]], task: str) -> np.ndarray:
     """The Jacobian from its columns."""
-    rows = list(zip(*table, strict=True))[: 3 if task == "pose" else 2]
-    return np.array(rows) if type(rows[0][0]) is float else matrix_of(*rows)
+    xs, ys, turns = zip(*table, strict=True)
+    if type(xs[0]) is float:
+        return np.array(xs + ys + turns if task == "pose" else xs + ys).reshape(-1, len(table))
+    return matrix_of(xs, ys, turns) if task == "pose" else matrix_of(xs, ys)
+
+
+def _check_task(task: str) -> None:
+    if task not in TASKS:
+        checks.choice("task", task, TASKS)

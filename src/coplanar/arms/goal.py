@@ -47,10 +47,12 @@ class Goal:
         """Checked, broadcast, in columns that nobody else can change."""
         if type(tolerance) is not float or not 0.0 <= tolerance < math.inf:
             tolerance = checks.not_negative("tolerance", tolerance)
-        if near is None and elbow is None and type(target) in (tuple, list) and tuple(map(type, target)) == _FLOATS:
-            x, y = target
-            if math.isfinite(x) and math.isfinite(y):
-                return cls((), x, y, None, None, None, tolerance)
+        point = _single(target)
+        if point is not None:
+            near = None if near is None else chain.joints_of(near, "near")
+            elbow = float(elbow) if type(elbow) is int and elbow in ELBOWS else elbow
+            if (near is None or type(near) is list) and (elbow is None or (type(elbow) is float and elbow in ELBOWS)):
+                return cls((), point[0], point[1], None, near, elbow, tolerance)
         return cls._general(chain, target, near, elbow, tolerance)
 
     @classmethod
@@ -94,6 +96,14 @@ class Goal:
         pick = [None if c is None else np.atleast_1d(c)[which] for c in (self.x, self.y, self.heading, self.elbow)]
         near = None if self.near is None else [np.atleast_1d(c)[which] for c in self.near]
         return Goal((len(which),), pick[0], pick[1], pick[2], near, pick[3], self.tolerance)
+
+
+def _single(target: Any) -> Any:
+    """The two floats of one position in plain numbers; None for anything else."""
+    point = target.tolist() if type(target) is np.ndarray and target.shape == (2,) else target
+    if type(point) not in (tuple, list) or tuple(map(type, point)) != _FLOATS:
+        return None
+    return point if math.isfinite(point[0]) and math.isfinite(point[1]) else None
 
 
 def _columns(parts: Any, lead: tuple[int, ...]) -> Any:

@@ -63,7 +63,10 @@ def inverse(
 
 def _within_limits(chain: Chain, goal: Goal, answer: closed.Closed, iterations: int) -> Any:
     """The answer; rows none of whose branches is within the limits have the nearest point that is."""
-    outside = np.flatnonzero(np.maximum(*answer.inside) == 0.0)
+    up, down = answer.inside
+    if type(up) is float and up + down > 0.0:
+        return answer
+    outside = np.flatnonzero(np.maximum(up, down) == 0.0)
     if not outside.size:
         return answer
     columns = (answer.elbow, answer.code, answer.gap, answer.iterations)
@@ -96,7 +99,7 @@ def _searched(chain: Chain, goal: Goal, start: np.ndarray, iterations: int) -> t
 def _numerical(chain: Chain, goal: Goal, iterations: int) -> Answer:
     """The ring decides where it can; the rest is searched."""
     aims = np.array(goal.aims).reshape(len(goal.aims), -1)
-    near = None if goal.near is None else np.array(goal.near).reshape(chain.n, -1).T
+    near = None if goal.near is None else np.array(goal.near).reshape(chain.n, -1).T.copy()
     k, n = aims.shape[1], chain.n
     q, code, gap, used = np.empty((k, n)), np.zeros(k, dtype=int), np.zeros(k), np.zeros(k, dtype=int)
     if geometry.turns_freely(chain) and n >= (1 if goal.heading is None else 3):
@@ -118,9 +121,7 @@ def _numerical(chain: Chain, goal: Goal, iterations: int) -> Answer:
     return Answer(q.T, (q.T,), (np.ones(k),), np.zeros(k), code, gap, used, report)
 
 
-def _outcome(
-    chain: Chain, aims: np.ndarray, tolerance: float, found: numerical.Found
-) -> tuple[np.ndarray, np.ndarray]:
+def _outcome(chain: Chain, aims: np.ndarray, tolerance: float, found: numerical.Found) -> tuple[np.ndarray, np.ndarray]:
     """Status and gap of the rows that were searched."""
     code, gap = np.full(len(found.q), _CODE[Reach.REACHED]), np.zeros(len(found.q))
     missed = np.flatnonzero(found.miss > tolerance)

@@ -80,9 +80,9 @@ def search(
     task = Task(chain, len(aims))
     starts = _starts(chain, aims, near)
     found = _attempt(task, next(starts), aims, tolerance, iterations, single)
-    for start in starts:
-        missed = np.flatnonzero(found.miss > tolerance)
-        if not missed.size:
+    while (missed := np.flatnonzero(found.miss > tolerance)).size:
+        start = next(starts, None)
+        if start is None:
             break
         answer = _attempt(task, start[missed], aims[:, missed], tolerance, iterations, single)
         found = _better(found, answer, missed)
@@ -103,12 +103,12 @@ def _starts(chain: Chain, aims: np.ndarray, near: np.ndarray | None) -> Iterator
             yield np.broadcast_to(lower + part * (upper - lower), (aims.shape[1], chain.n))
 
 
-def _attempt(
-    task: Task, start: np.ndarray, aims: np.ndarray, tolerance: float, iterations: int, single: bool
-) -> Found:
+def _attempt(task: Task, start: np.ndarray, aims: np.ndarray, tolerance: float, iterations: int, single: bool) -> Found:
     chain = task.chain
     compiled = not single and chain.n >= len(aims) and linkage.pays("search", len(start))
-    q, miss, code, used, report = (_by_loops if compiled else _by_rows)(task, start, aims, tolerance, iterations, single)
+    q, miss, code, used, report = (_by_loops if compiled else _by_rows)(
+        task, start, aims, tolerance, iterations, single
+    )
     return Found(wind(chain, q, start) if chain.limits is None else q, miss, code, used, report)
 
 
@@ -165,7 +165,7 @@ def bent(chain: Chain, aims: np.ndarray, bend: float) -> np.ndarray:
     turns = np.where(turning, bend, 0.0)
     turns[np.flatnonzero(turning)[:1]] = 0.0
     posture = np.where(turning, np.cumsum(turns) if chain.angles == "absolute" else turns, inside)
-    x, y = chain.base.act_inverse(aims[0], aims[1])
+    x, y = _from_base(chain, aims)
     tip_x, tip_y = chain.base.inverse() @ chain.forward(posture).position
     swing = np.arctan2(y, x) - math.atan2(tip_y, tip_x)
     turned = turning if chain.angles == "absolute" else turning & (np.cumsum(turning) == 1)
@@ -216,9 +216,14 @@ def stretched(chain: Chain, aims: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def _reaching(chain: Chain, aims: np.ndarray) -> tuple[Any, Any, tuple[float, ...], list[Any]]:
     """Target of the links that reach in the base frame, their lengths, and the heading of a last one that does not."""
-    x, y = chain.base.act_inverse(aims[0], aims[1])
+    x, y = _from_base(chain, aims)
     if len(aims) == 2:
         return x, y, geometry.levers(chain), []
     heading = aims[2] - chain.base.theta - chain.tool.theta
     x, y = _wrist(x, y, heading, chain.links[-1] + chain.tool.x, chain.tool.y)
     return x, y, tuple(chain.links[:-1]), [heading]
+
+
+def _from_base(chain: Chain, aims: np.ndarray) -> tuple[Any, Any]:
+    """Positions in the base frame."""
+    return (aims[0], aims[1]) if chain.plan.at_origin else chain.base.act_inverse(aims[0], aims[1])

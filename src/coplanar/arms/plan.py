@@ -73,7 +73,11 @@ def plan_of(chain: Chain) -> Plan:
         turns_tool=turns_tool,
         mounted=(tool.x, tool.y) != (0.0, 0.0),
         at_origin=base.parts == (0.0, 0.0, 0.0),
-        plain=chain.joints == "RR" and chain.angles == "relative" and not any(chain.bends) and chain.limits is None and lean == 0.0,
+        plain=chain.joints == "RR"
+        and chain.angles == "relative"
+        and not any(chain.bends)
+        and chain.limits is None
+        and lean == 0.0,
         position=position,
         pose=_two_links(chain.links[0], chain.links[1], 0.0) if chain.joints == "RRR" else None,
         table=ChainTable(
@@ -89,7 +93,7 @@ def _two_links(l1: float, l2: float, lean: float) -> TwoLinks:
 
 
 def _joints(chain: Chain) -> tuple[tuple[float, float, float, float, float], ...]:
-    """phi = carry phi_before + turns q + bend; an absolute angle carries nothing, and starts from the base's."""
+    """Rows for phi = carry phi_before + turns q + bend; an absolute angle starts from the base's."""
     rows = []
     for joint, bend, length in zip(chain.joints, chain.bends, chain.links, strict=True):
         turns = joint == "R"

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 Point = tuple[Real, Real]
 Column = tuple[Real, Real, float]
 
-LARGE = 1e300  # [rad, m] sums of joints beyond may be infinite, and the sine of that is no number
-
 _act = evaluator(se2.act)
 _link = evaluator(laws.joint_link)
 _link_velocity = evaluator(laws.link_velocity)
@@ -55,13 +53,6 @@ class Texts:
     revolute: Callable[..., Any]
     prismatic: Callable[..., Any]
 
-    @staticmethod
-    def serving(parts: Any) -> Texts:
-        """For joints of one configuration, of rows in NumPy, or of another library."""
-        if type(parts[0]) is float:
-            return _ON_FLOATS if max(parts) < LARGE and min(parts) > -LARGE else _ON_ALL
-        return _ON_ROWS if type(parts[0]) is np.ndarray else _ON_ALL
-
 
 _LAWS = (_link, _act, _revolute_column, _prismatic_column)
 _ON_FLOATS = Texts(*(law.on_floats for law in _LAWS))
@@ -91,12 +82,22 @@ class Posture:
     def of(cls, chain: Chain, q: Any) -> Posture:
         """The posture at checked joints q, shape (..., n)."""
         parts = q if type(q) is list else components(q)
-        texts, plan = Texts.serving(parts), chain.plan
+        if type(parts[0]) is float:
+            try:
+                return cls._through(chain, parts, _ON_FLOATS)
+            except ValueError:  # a sum of joints is infinite, and has no sine
+                return cls._through(chain, parts, _ON_ALL)
+        return cls._through(chain, parts, _ON_ROWS if type(parts[0]) is np.ndarray else _ON_ALL)
+
+    @classmethod
+    def _through(cls, chain: Chain, parts: Any, texts: Texts) -> Posture:
+        """From link to link."""
+        link, plan = texts.link, chain.plan
         x, y, angle = chain.base.x, chain.base.y, chain.base.theta
         angles: list[Real] = []
         points: list[Point] = [(x, y)]
         for value, (carry, turns, bend, length, slides) in zip(parts, plan.joints, strict=True):
-            x, y, angle = texts.link(x, y, angle, value, carry, turns, bend, length, slides)
+            x, y, angle = link(x, y, angle, value, carry, turns, bend, length, slides)
             angles.append(angle)
             points.append((x, y))
         tip = texts.act(x, y, angle, chain.tool.x, chain.tool.y) if plan.mounted else (x, y)

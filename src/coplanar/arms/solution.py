@@ -74,8 +74,11 @@ class Solution:
 
         Whole turns are added to come nearest to ``near``, or within the limits.
         """
-        parts = [shaped(branch, self.goal.lead) for branch in self.answer.branches]
-        branches = np.stack(parts, axis=-2)
+        lead, parts = self.goal.lead, self.answer.branches
+        if not lead:
+            branches = np.array(parts).reshape(len(parts), -1)
+        else:
+            branches = np.stack([shaped(branch, lead) for branch in parts], axis=-2)
         branches.flags.writeable = False
         return branches
 
@@ -116,18 +119,17 @@ class Solution:
 
     def _shaped(self, column: Any) -> Any:
         """A float, or a read-only array of the leading shape."""
-        if type(column) is float:
-            return column if not self.goal.lead else np.full(self.goal.lead, column)
         if not self.goal.lead:
-            return float(column[0])
-        array = column.reshape(self.goal.lead)
+            return column if type(column) is float else float(column[0])
+        array = np.full(self.goal.lead, column) if type(column) is float else column.reshape(self.goal.lead)
         array.flags.writeable = False
         return array
 
     def _whole(self, column: Any) -> Any:
         """An int, or an array of them."""
-        value = self._shaped(column)
-        return int(value) if type(value) is float else value.astype(np.int64)
+        if not self.goal.lead:
+            return int(column if type(column) is float else column[0])
+        return self._shaped(column).astype(np.int64)
 
     @property
     def status(self) -> Any:

@@ -1,4 +1,4 @@
-"""Serial chains over many rows: the compiled loops of places, Jacobians and searches, for laws that the caller names."""
+"""Serial chains over many rows: compiled loops of places, Jacobians and searches, for laws that the caller names."""
 
 from __future__ import annotations
 

@@ -155,7 +155,7 @@ def turn_within(angle, near, lower, upper):
 
 
 def joint_near(turn, before, bend, near):
-    """Joint of a link: its turn, on top of the direction before where angles are absolute, less its bend; near ``near``."""
+    """Joint of a link near another: its turn, on top of the direction before for absolute angles, less its bend."""
     return turn_near(turn + before - bend, near)
 
 

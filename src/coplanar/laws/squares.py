@@ -15,7 +15,7 @@ DAMPING_FLOOR = 1e-10  # of mu = lambda/|F|^2: so that it can rise again within 
 
 
 def damping(mu, square, trace):
-    """lambda = mu |F|^2, and a rounding of the trace of J J^T, so that a system without full rank has an answer."""
+    """Damping lambda = mu |F|^2, and a rounding of the trace of J J^T for a system without full rank."""
     return mu * square + LEAST_DAMPING * trace + LEAST_LAMBDA
 
 
@@ -26,7 +26,7 @@ def free(x, lower, upper, slope):
 
 
 def solve_three(a, b, c, d, e, f, u, v, w):
-    """y with A y = (u, v, w), A = [[a, b, c], [b, d, e], [c, e, f]] positive definite, by A = L D L^T."""
+    """The y with A y = (u, v, w), A = [[a, b, c], [b, d, e], [c, e, f]] positive definite, by A = L D L^T."""
     l21, l31 = b / a, c / a
     pivot, cross = d - l21 * b, e - l21 * c
     l32 = cross / pivot

@@ -154,9 +154,7 @@ def _compile(laws, texts, loop, constants, *, cached=True):
     """The loop over these laws; beside each of them stands its safe form under the name ``safe_...``."""
     first = next(iter(laws.values()))
     digest = _digest(*laws.values())
-    label = "_".join(
-        [first.__module__.rpartition(".")[2], first.__name__, *(f"{k}{v}" for k, v in constants), digest]
-    )
+    label = "_".join([first.__module__.rpartition(".")[2], first.__name__, *(f"{k}{v}" for k, v in constants), digest])
     names = dict(constants)
     for name, law in laws.items():
         safe_law = bind(law, SAFE, _out_of_line, _safe_laws)
@@ -180,7 +178,7 @@ def _template(text, label, names):
 
 
 def _digest(*laws):
-    """Of laws as they are in memory, with the laws they call: they may be newer or older than their file, or have none."""
+    """Of laws as they are in memory, with those they call: one may be newer or older than its file, or have none."""
     digest = hashlib.sha256()
     for law in laws:
         _add_text(law, digest, set())

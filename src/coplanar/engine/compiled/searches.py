@@ -99,7 +99,7 @@ def judge(state, square, expected, now, taken, n, rows):
 
 
 def take(state, trial, slopes, model, taken, length, size, n, rows):
-    """The steps that are taken, with the Jacobian and the error at their ends; squares of a step's length and of |q|."""
+    """Steps that are taken, with the Jacobian and the error at their ends; squares of a step's length and of |q|."""
     for i in range(rows):
         length[i] = 0.0
         size[i] = 0.0
