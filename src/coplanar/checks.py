@@ -120,7 +120,7 @@ def monotone(name: str, value: ArrayLike) -> np.ndarray:
     times = np.asarray(vector(name, value))
     if times.ndim != 1 or times.size < 2:
         raise InvalidShape(name, f"shape {times.shape}", "a vector of two or more times")
-    onward = np.sign(times[1:] - times[:-1]) * np.sign(times[1] - times[0]) > 0.0
+    onward = times[1:] > times[:-1] if times[1] > times[0] else times[1:] < times[:-1]
     if not onward.all():
         i = int(np.argmin(onward))
         needed = f"a strictly monotone vector (entries {i} and {i + 1} are {times[i]}, {times[i + 1]})"

@@ -29,7 +29,14 @@ DOMAIN = {
 }
 SPECIAL = (np.nan, np.inf, -np.inf)
 
-every_law = pytest.mark.parametrize("law", LAWS, ids=lambda law: f"{law.__module__.rpartition('.')[2]}.{law.__name__}")
+# All tests of a law run in one process, so that its loops are compiled once.
+every_law = pytest.mark.parametrize(
+    "law",
+    [
+        pytest.param(law, id=name, marks=pytest.mark.xdist_group(name))
+        for law, name in ((law, f"{law.__module__.rpartition('.')[2]}.{law.__name__}") for law in LAWS)
+    ],
+)
 
 
 def columns(law, seed=0, rows=300):

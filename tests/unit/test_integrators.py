@@ -21,7 +21,7 @@ def test_times_must_be_monotone(t):
 
 @pytest.mark.parametrize("t", [[0.0], 1.0, [[0.0, 1.0]]])
 def test_times_must_be_a_vector(t):
-    with pytest.raises(InvalidShape, match=r"^t = .shape"):
+    with pytest.raises(InvalidShape, match=r"^t with shape"):
         integrate_ode(decay, t, 1.0)
 
 
@@ -44,7 +44,7 @@ def test_rates_of_another_shape_are_reported_at_the_first_step(method):
         calls.append(t)
         return y[:2]
 
-    with pytest.raises(InvalidShape, match=r"rates = .*\(2,\).* at t = 3.*needed shape \(3,\), that of the state"):
+    with pytest.raises(InvalidShape, match=r"rates with .*\(2,\).* at t = 3.*needed shape \(3,\), that of the state"):
         integrate_ode(wrong, [3.0, 4.0, 5.0], np.zeros(3), method=method)
     assert calls == [3.0]
 

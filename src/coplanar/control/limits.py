@@ -5,14 +5,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from coplanar import checks
 from coplanar.checks import Real
 from coplanar.control.unicycle import Command
 from coplanar.engine import evaluator
 from coplanar.errors import InvalidValue
 from coplanar.laws import control as laws
+from coplanar.laws import wheels
 
-_clipped = evaluator(laws.clipped)
+_clipped = evaluator(wheels.clipped)
 _rims = {
     "scale": evaluator(laws.rims_scaled),
     "clip": evaluator(laws.rims_clipped),
@@ -57,6 +60,13 @@ class Limits:
                 object.__setattr__(self, name, checks.frozen(checks.positive(name, value)))
         if self.rim is not math.inf and self.half_track is None:
             raise InvalidValue("half_track", None, "half the distance between the wheels when rim is limited")
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The leading shape of the limits, () for numbers."""
+        return np.broadcast_shapes(
+            *(np.shape(v) for v in (self.v, self.omega, self.rim, self.acceleration, self.turn_acceleration))
+        )
 
     def apply(self, command: Command, last: Command = (0.0, 0.0), step: Real = math.inf) -> Command:
         """The command within the limits.

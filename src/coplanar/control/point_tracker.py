@@ -23,11 +23,15 @@ _gain_sum = evaluator(laws.gain_sum)
 _point_velocity = evaluator(laws.point_velocity)
 _point_command = evaluator(laws.point_command)
 _track_point = evaluator(laws.track_point)
-_tracking_arc = Scan(laws.tracking_arc)
 _tracking_step = Scan(laws.tracking_step)
 _turn_per_step = evaluator(laws.turn_per_step)
 _turn_rate = evaluator(laws.turn_rate)
 
+_TRACKING: dict[str, tuple[Scan, tuple[float, ...]]] = {
+    "euler": (Scan(laws.tracking_euler), ()),
+    "exact": (Scan(laws.tracking_arc), ()),
+    **{method: (_tracking_step, ROWS[method]) for method in ("midpoint", "heun", "rk4")},
+}
 AGAINST = ("current", "next")
 NO_SIDEWAYS = (
     "with P on the axle no command moves it sideways (det A = px = 0): put P ahead of the axle, "
@@ -207,7 +211,7 @@ class PointTracker:
 
     def roll(self, state: State, targets: Any, steps: np.ndarray, method: str) -> tuple[np.ndarray, ...]:
         """The whole closed loop of a unicycle in one go: x, y, theta, v, omega, ex, ey, each (steps + 1, ...)."""
-        scan, row = (_tracking_arc, ()) if method == "exact" else (_tracking_step, ROWS[method])
+        scan, row = _TRACKING[method]
         memory = (0.0,) * 6
         parameters = (self.px, self.py, self.kp, self.kd, self.ki, *row)
         columns: tuple[np.ndarray, ...] = scan((*state, *memory), (*targets, steps), parameters)[:7]

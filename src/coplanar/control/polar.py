@@ -11,19 +11,22 @@ import numpy as np
 from coplanar import checks
 from coplanar.checks import ArrayLike, Real
 from coplanar.control.controller import Timed, as_column
-from coplanar.control.stability import StabilityReport, judge, quadratic_roots
-from coplanar.control.unicycle import METHODS, Command, State
+from coplanar.control.stability import StabilityReport, first_exit, judge, quadratic_roots
+from coplanar.control.unicycle import Command, State, lead_of
 from coplanar.engine import evaluator
 from coplanar.errors import InvalidValue
-from coplanar.laws import control as laws
+from coplanar.laws import polar as laws
 from coplanar.se2 import Pose
 
 _coordinates = evaluator(laws.polar_coordinates)
 _settled = evaluator(laws.settled)
 _FORMS = {
-    "linear": (evaluator(laws.polar_linear), evaluator(laws.polar_linear_loop), (3.0, 8.0, -1.5)),
-    "smooth": (evaluator(laws.polar_smooth), evaluator(laws.polar_smooth_loop), (3.0, 6.0, 1.0)),
+    "linear": (evaluator(laws.polar_linear), evaluator(laws.polar_linear_pull), (3.0, 8.0, -1.5)),
+    "smooth": (evaluator(laws.polar_smooth), evaluator(laws.polar_smooth_pull), (3.0, 6.0, 1.0)),
 }
+_loop = evaluator(laws.polar_loop)
+_margin = evaluator(laws.polar_margin)
+_rates = evaluator(laws.polar_rates)
 _strong = evaluator(laws.polar_strong)
 
 
@@ -81,7 +84,7 @@ class PolarController:
     def stability(
         self, step: ArrayLike, *, method: str = "euler", speed: ArrayLike = 0.0, tolerance: float = 1e-9
     ) -> StabilityReport:
-        """What the loop will do near the goal: poles 1 + h s of Euler, to first order in h those of any method.
+        """What the loop will do near the goal, for the sampled loop as it is; it needs h k_rho < 1.
 
         Args:
             step: h [s].
@@ -89,22 +92,24 @@ class PolarController:
             speed: Has no part in it.
             tolerance: How near 1 the largest pole counts as on the boundary [1].
         """
-        checks.choice("method", method, METHODS)
+        lead = lead_of(method)
         h = checks.positive("step", step)
-        damping, stiffness = _FORMS[self.form][1](*self._gains)
-        rates = quadratic_roots(damping, stiffness)
-        rates = np.concatenate([np.broadcast_to(-np.expand_dims(self.k_rho, -1), (*rates.shape[:-1], 1)), rates], -1)
-        poles = 1.0 + np.expand_dims(h, -1) * rates
-        margin = 1.0 - np.abs(poles).max(-1)
-        largest = np.maximum(-2.0 * rates.real, 0.0) / np.maximum(np.abs(rates) ** 2, np.finfo(np.float64).tiny)
-        status = judge(margin, tolerance)
+        pull = _FORMS[self.form][1](*self._gains)
+        damping, stiffness = _rates(self.k_rho, *pull)
+        trace, det = _loop(h, self.k_rho, *pull, lead)
+        along = np.broadcast_to(np.expand_dims(1.0 - h * self.k_rho, -1), (*np.shape(trace), 1))
+        poles = np.concatenate([along, quadratic_roots(trace, det)], axis=-1)
+        largest = np.where(np.less(h * self.k_rho, 1.0), np.abs(poles).max(-1), np.maximum(np.abs(along[..., 0]), 1.0))
+        margin = 1.0 - largest if largest.ndim else float(1.0 - largest)
         conditions, warnings = self._conditions(damping, stiffness)
+        highest = 1.0 / np.maximum(self.k_rho, np.finfo(np.float64).tiny)
+        edge = first_exit(lambda h: _margin(h, self.k_rho, *pull, lead), highest)
+        held = np.greater(self.k_rho, 0.0) & np.greater(damping, 0.0) & np.greater(stiffness, 0.0)
+        edge = np.where(held, edge, 0.0) if np.ndim(held) else edge * bool(held)
         return StabilityReport(
-            step=h, method=method, poles=poles, lateral_poles=None, speed=speed,
-            margin=margin if np.ndim(margin) else float(margin),
-            largest_step=largest.min(-1) if largest.ndim > 1 else float(largest.min()),
-            status=status, conditions=conditions, numbers={"damping": damping, "stiffness": stiffness},
-            warnings=warnings,
+            step=h, method=method, poles=poles, lateral_poles=None, speed=speed, margin=margin, largest_step=edge,
+            status=judge(margin, tolerance), conditions=conditions | {"h k_rho < 1": np.less(h * self.k_rho, 1.0)},
+            numbers={"damping": damping, "stiffness": stiffness}, warnings=warnings,
         )  # fmt: skip
 
     def _conditions(self, damping: Real, stiffness: Real) -> tuple[dict[str, Any], tuple[str, ...]]:

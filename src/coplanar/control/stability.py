@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import Enum
 from typing import Any, Self
@@ -19,6 +19,7 @@ _pid_polynomial = evaluator(laws.pid_polynomial)
 _lateral_polynomial = evaluator(laws.lateral_polynomial)
 _lateral_margin = evaluator(laws.lateral_margin)
 _largest_step = evaluator(laws.largest_step)
+NO_STEP = 1e-9  # of the highest step: a loop that is not stable above this is stable for no step
 
 
 class Stability(Enum):
@@ -109,31 +110,32 @@ def moving_poles(step: Real, gains: tuple[Real, Real, Real], turn: Real, lead: f
     return _roots(stack(_lateral_polynomial(step, *gains, turn, lead)))
 
 
-def stable_below(gains: tuple[Real, Real, Real], px: Real, speed: Real, lead: float, *, samples: int = 256) -> Real:
-    """The largest step below which the loop is stable [s].
-
-    In closed form at speed 0. Otherwise the first of ``samples`` steps up to there at which a pole has left the
-    unit circle, refined by bisection to the last bit.
-    """
+def stable_below(gains: tuple[Real, Real, Real], px: Real, speed: Real, lead: float) -> Real:
+    """The largest step below which the loop of a tracked point is stable [s]: in closed form at speed 0."""
     still = _largest_step(*gains)
     if not np.any(speed):
         return still
+    moving = first_exit(lambda h: _lateral_margin(h, *gains, speed, px, lead), np.add(still, np.zeros(np.shape(px))))
+    step = np.where(np.greater(speed, 0.0), moving, still)
+    return float(step) if not step.ndim else step
 
-    def leaves(step: Real) -> np.ndarray:
-        outside: np.ndarray = np.less_equal(_lateral_margin(step, *gains, speed, px, lead), 0.0)
-        return outside
 
-    shape = np.broadcast_shapes(*(np.shape(v) for v in (still, px, speed)))
+def first_exit(margin: Callable[[Real], Real], highest: Real, *, samples: int = 256) -> Real:
+    """The smallest step at which a margin is no longer above 0 [s], or the highest; 0 if it never is above.
+
+    The first of ``samples`` even steps up to the highest at which it is not, refined by bisection to the last bit.
+    """
+    shape = np.broadcast_shapes(np.shape(margin(highest)), np.shape(highest))
+    top = np.broadcast_to(highest, shape)
     fractions = (np.arange(1, samples + 1) / samples).reshape(-1, *(1 for _ in shape))
-    out = leaves(fractions * still)
+    out = np.less_equal(margin(fractions * top), 0.0)
     first = np.where(out.any(0), out.argmax(0), samples - 1)
-    high = (first + 1.0) / samples * still
-    low = np.where(first > 0, first / samples * still, 0.0)
+    low, high = first / samples * top, (first + 1.0) / samples * top
     for _ in range(60):
         middle = 0.5 * (low + high)
-        beyond = leaves(middle)
+        beyond = np.less_equal(margin(middle), 0.0)
         low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
-    step = np.where(out.any(0) & np.greater(speed, 0.0), high, still)
+    step = np.where(out.any(0), np.where(high < NO_STEP * top, 0.0, high), top)
     return float(step) if not shape else step
 
 
@@ -145,9 +147,9 @@ def margin_of(poles: np.ndarray, across: np.ndarray | None, turn: Real) -> Real:
     return 1.0 - largest if np.ndim(largest) else float(1.0 - largest)
 
 
-def quadratic_roots(damping: Real, stiffness: Real) -> np.ndarray:
-    """Roots of s^2 + damping s + stiffness [1/s], shape (..., 2), complex."""
-    return _roots(stack((1.0, damping, stiffness)))
+def quadratic_roots(trace: Real, det: Real) -> np.ndarray:
+    """Roots of z^2 - trace z + det, shape (..., 2), complex."""
+    return _roots(stack((1.0, -trace, det)))
 
 
 def judge(margin: Real, tolerance: float) -> Any:

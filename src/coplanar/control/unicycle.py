@@ -8,9 +8,12 @@ from typing import NamedTuple
 from coplanar import checks
 from coplanar.checks import Real
 from coplanar.engine import evaluator
+from coplanar.integrators import METHODS as TABLES
+from coplanar.integrators import ButcherTableau
 from coplanar.laws import control as laws
+from coplanar.laws import motion
 
-_arc = evaluator(laws.unicycle_arc)
+_arc = evaluator(motion.arc)
 _step = evaluator(laws.unicycle_step)
 
 
@@ -21,18 +24,21 @@ class Row(NamedTuple):
     at_middle: float
     at_end: float
 
+    @classmethod
+    def of(cls, table: ButcherTableau) -> Row:
+        """The row of a Butcher tableau whose nodes are 0, 1/2 and 1."""
+        sums = {0.0: 0.0, 0.5: 0.0, 1.0: 0.0}
+        for weight, node in zip(table.b, table.c, strict=True):
+            sums[node] += weight
+        return cls(*sums.values())
+
     @property
     def lead(self) -> float:
         """The sum of weight x node: how much of the turn within a step its displacement feels."""
         return 0.5 * self.at_middle + self.at_end
 
 
-ROWS = {
-    "euler": Row(1.0, 0.0, 0.0),
-    "midpoint": Row(0.0, 1.0, 0.0),
-    "heun": Row(0.5, 0.0, 0.5),
-    "rk4": Row(1 / 6, 2 / 3, 1 / 6),
-}
+ROWS = {name: Row.of(table) for name, table in TABLES.items()}
 METHODS = (*ROWS, "exact")
 State = tuple[Real, Real, Real]
 Command = tuple[Real, Real]

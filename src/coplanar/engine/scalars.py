@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from math import asinh, atan, atan2, atanh, copysign, cos, cosh, expm1, hypot, log, log1p, sin, sinh, tan, tanh
-from operator import mul
 from typing import Any
 
 from coplanar.engine.arrays import DSINC_BELOW, PI, SERIES_BELOW, TAU, dsinc_series
@@ -68,20 +67,39 @@ def dsinc(x: float) -> float:
 
 
 def integral(integrand: Any, points: int) -> Any:
-    """The integral of a law that was bound to these primitives, by Gauss-Legendre panels."""
-    nodes, weights = rule(points)
+    """The integral of a law that was bound to these primitives, by Gauss-Legendre panels.
+
+    ``panels`` is a bound on what one panel can take, so a fraction of a panel needs fewer nodes: the nearest
+    singularity is further away by that fraction, and half a panel loses no digits with 3/4 of them, nor a quarter with
+    half of them.
+    """
+    shares = (points, 3 * points // 4, points // 2) if points >= 16 else (points, points, points)
+    whole, most, half_rule = (tuple(zip(*rule(n), strict=True)) for n in shares)
 
     def integrate(panels: float, lower: float, upper: float, *parameters: float) -> tuple[float, ...]:
+        pairs = half_rule if panels <= 0.25 else most if panels <= 0.5 else whole
         count = panel_count(panels)
         half = 0.5 * (upper - lower) / count if panels <= count else math.nan
-        sums = []
-        for k in range(count):
-            middle = lower + (2 * k + 1) * half
-            rows = [integrand(middle + node * half, *parameters) for node in nodes]
-            sums.append([half * sum(map(mul, weights, column)) for column in zip(*rows, strict=True)])
-        return tuple(map(sum, zip(*sums, strict=True)))
+        total = _panel(integrand, lower + half, half, pairs, parameters)
+        for k in range(1, count):
+            more = _panel(integrand, lower + (2 * k + 1) * half, half, pairs, parameters)
+            total = [t + m for t, m in zip(total, more, strict=True)]
+        return tuple(total)
 
     return integrate
+
+
+def _panel(integrand: Any, middle: float, half: float, pairs: Any, parameters: tuple[float, ...]) -> list[float]:
+    """The integrals over one panel about ``middle``."""
+    rows = [integrand(middle + node * half, *parameters) for node, _ in pairs]
+    if len(rows[0]) == 2:  # the pair (x, y), without the general case's tuples
+        x = y = 0.0
+        for (a, b), (_, weight) in zip(rows, pairs, strict=True):
+            x += weight * a
+            y += weight * b
+        return [half * x, half * y]
+    weighted = [[weight * f for f in row] for row, (_, weight) in zip(rows, pairs, strict=True)]
+    return [half * column for column in map(sum, zip(*weighted, strict=True))]
 
 
 __all__ = [

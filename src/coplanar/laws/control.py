@@ -1,23 +1,18 @@
 # ruff: noqa: D403 (a symbol keeps its case)
-"""Driving a unicycle by feedback: a point fixed on it follows a reference, or it drives to a pose.
+"""Driving a unicycle by feedback: a point fixed on it follows a reference, within what the motors allow.
 
 The robot stands at (x, y, theta), is driven by (v, omega), and P = C + R(theta) p is a point fixed on it.
 A loop samples every h seconds; z is its shift by one sample. g = h V/|px| is how far the robot turns in one
 sample, per radian of misalignment, when its reference moves at speed V.
 
 Sources: Yun and Yamamoto 1992, On feedback linearization of mobile robots (point P); Jury 1964, Theory and
-Application of the z-Transform Method; Siegwart, Nourbakhsh, Scaramuzza 2011, Introduction to Autonomous Mobile
-Robots, sec. 3.6.2; Aicardi, Casalino, Bicchi, Balestrino 1995, Closed loop steering of unicycle-like vehicles.
+Application of the z-Transform Method.
 """
 
-from coplanar.engine import PI, absolute, atan2, copysign, cos, hypot, maximum, minimum, sinc, sincos, sqrt, where
-from coplanar.laws.se2 import act, rotate, step, wrap
-
-
-def unicycle_rates(theta, v, omega):
-    """(xdot, ydot, thetadot) = (v cos theta, v sin theta, omega)."""
-    s, c = sincos(theta)
-    return v * c, v * s, omega
+from coplanar.engine import absolute, copysign, maximum, minimum, sincos, sqrt, where
+from coplanar.laws.motion import arc, euler
+from coplanar.laws.se2 import act, rotate
+from coplanar.laws.wheels import clipped, differential_forward, differential_inverse
 
 
 def unicycle_step(x, y, theta, v, omega, h, at_start, at_middle, at_end):
@@ -33,11 +28,6 @@ def unicycle_step(x, y, theta, v, omega, h, at_start, at_middle, at_end):
     forward = at_start * c0 + at_middle * c1 + at_end * c2
     sideways = at_start * s0 + at_middle * s1 + at_end * s2
     return x + way * forward, y + way * sideways, theta + turn
-
-
-def unicycle_arc(x, y, theta, v, omega, h):
-    """The arc of a held command: T exp(v h, 0, omega h)."""
-    return step(x, y, theta, v * h, 0.0, omega * h)
 
 
 def center_under(point_x, point_y, theta, px, py):
@@ -75,6 +65,15 @@ def track_point(x, y, theta, rx, ry, fx, fy, last_x, last_y, sum_x, sum_y, px, p
     return v, omega, ex, ey, total_x, total_y
 
 
+def tracking_euler(x, y, theta, v, omega, last_x, last_y, sum_x, sum_y, rx, ry, fx, fy, h, px, py, kp, kd, ki):
+    """``track_point``, then an Euler step: one turn of the closed loop."""
+    v, omega, ex, ey, sum_x, sum_y = track_point(
+        x, y, theta, rx, ry, fx, fy, last_x, last_y, sum_x, sum_y, px, py, kp, kd, ki, h
+    )
+    x, y, theta = euler(x, y, theta, v, omega, h)
+    return x, y, theta, v, omega, ex, ey, sum_x, sum_y
+
+
 def tracking_step(
     x,
     y,
@@ -108,11 +107,11 @@ def tracking_step(
 
 
 def tracking_arc(x, y, theta, v, omega, last_x, last_y, sum_x, sum_y, rx, ry, fx, fy, h, px, py, kp, kd, ki):
-    """``track_point``, then ``unicycle_arc``: one turn of the closed loop."""
+    """``track_point``, then the arc of the held command: one turn of the closed loop."""
     v, omega, ex, ey, sum_x, sum_y = track_point(
         x, y, theta, rx, ry, fx, fy, last_x, last_y, sum_x, sum_y, px, py, kp, kd, ki, h
     )
-    x, y, theta = unicycle_arc(x, y, theta, v, omega, h)
+    x, y, theta = arc(x, y, theta, v, omega, h)
     return x, y, theta, v, omega, ex, ey, sum_x, sum_y
 
 
@@ -198,67 +197,10 @@ def turn_per_step(h, speed, px):
     return h * absolute(speed) / absolute(px)
 
 
-def polar_coordinates(x, y, theta, gx, gy, gtheta):
-    """rho to the goal, alpha its bearing from the heading, beta = heading of the goal - direction to it."""
-    dx, dy = gx - x, gy - y
-    towards = atan2(dy, dx)
-    return hypot(dx, dy), wrap(towards - theta), wrap(gtheta - towards)
-
-
-def polar_linear(rho, alpha, beta, k_rho, k_alpha, k_beta):
-    """v = k_rho rho, omega = k_alpha alpha + k_beta beta.  [Siegwart 2011, eq. 3.52]"""
-    return k_rho * rho, k_alpha * alpha + k_beta * beta
-
-
-def polar_smooth(rho, alpha, beta, k_rho, k_alpha, k_beta):
-    """v = g rho cos(alpha), omega = k alpha + g cos(alpha) sinc(alpha) (alpha - h beta).  [Aicardi 1995, eq. 8]
-
-    Here g = k_rho, k = k_alpha, h = k_beta > 0, and the book's theta is -beta.
-    """
-    forward = cos(alpha)
-    return k_rho * rho * forward, k_alpha * alpha + k_rho * forward * sinc(alpha) * (alpha - k_beta * beta)
-
-
-def polar_linear_loop(k_rho, k_alpha, k_beta):
-    """Near the goal (alpha, beta) obey s^2 + (k_alpha - k_rho) s - k_rho k_beta.  [Siegwart 2011, eq. 3.57]"""
-    return k_alpha - k_rho, -k_rho * k_beta
-
-
-def polar_smooth_loop(k_rho, k_alpha, k_beta):
-    """Near the goal (alpha, beta) obey s^2 + k_alpha s + k_rho^2 k_beta."""
-    return k_alpha, k_rho * k_rho * k_beta
-
-
-def polar_strong(k_rho, k_alpha, k_beta):
-    """k_alpha + 5/3 k_beta - 2/pi k_rho: above 0 the robot keeps facing the goal.  [Siegwart 2011, eq. 3.62]"""
-    return k_alpha + 5.0 / 3.0 * k_beta - 2.0 / PI * k_rho
-
-
-def settled(rho, near, v, omega, theta, gtheta, k_alpha):
-    """Within ``near`` of the goal only the heading is left: v = 0, omega = k_alpha (gtheta - theta)."""
-    away = rho > near
-    return where(away, v, 0.0), where(away, omega, k_alpha * wrap(gtheta - theta))
-
-
 def scaled(v, omega, v_max, omega_max):
     """(v, omega) divided by whichever limit is exceeded most: the curvature omega/v stays."""
     excess = maximum(1.0, maximum(absolute(v) / v_max, absolute(omega) / omega_max))
     return v / excess, omega / excess
-
-
-def clipped(u, u_max):
-    """u in [-u_max, u_max]."""
-    return minimum(maximum(u, -u_max), u_max)
-
-
-def rims(v, omega, half_track):
-    """Rim speeds of the two wheels, (v - b omega, v + b omega) as (left, right)."""
-    return v - half_track * omega, v + half_track * omega
-
-
-def from_rims(left, right, half_track):
-    """v = (left + right)/2, omega = (right - left)/(2 b)."""
-    return 0.5 * (left + right), 0.5 * (right - left) / half_track
 
 
 def rims_scaled(v, omega, half_track, rim_max):
@@ -269,8 +211,8 @@ def rims_scaled(v, omega, half_track, rim_max):
 
 def rims_clipped(v, omega, half_track, rim_max):
     """Each rim clipped by itself: the path changes."""
-    left, right = rims(v, omega, half_track)
-    return from_rims(clipped(left, rim_max), clipped(right, rim_max), half_track)
+    left, right = differential_inverse(v, omega, 1.0, 1.0, half_track)
+    return differential_forward(clipped(left, rim_max), clipped(right, rim_max), 1.0, 1.0, half_track)
 
 
 def rims_keeping_omega(v, omega, half_track, rim_max):

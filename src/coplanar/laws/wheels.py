@@ -8,12 +8,10 @@ A row (a, b, c) stands for a vx + b vy + c omega.
 Sources: Lynch and Park 2017, Modern Robotics, eqs. 13.5 and 13.6; Campion, Bastin, d'Andrea-Novel 1996 (mobility).
 """
 
-import math
-
 from coplanar.engine import absolute, maximum, minimum, sincos, tan, where
 from coplanar.laws.se2 import act, rotate
 
-NONE = math.inf  # where there is no centre of rotation
+NONE = float("inf")  # where there is no centre of rotation
 
 
 def traction_row(x, y, ux, uy):

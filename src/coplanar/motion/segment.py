@@ -188,7 +188,7 @@ class Segment:
 
         Example:
             >>> F, G = Segment(1.0, 0.0, duration=2.0).jacobians(Pose())
-            >>> F[1].tolist(), G[1].round(12).tolist()
+            >>> F[1].round(12).tolist(), G[1].round(12).tolist()
             ([0.0, 1.0, 2.0], [0.0, 2.0, 0.0, 1.333333333333])
         """
         time = self.duration if t is None else checks.real("t", t)

@@ -52,8 +52,8 @@ def _cell(value: Any) -> str:
 
 def _numbers(path: Path, names: list[str], line: int, cells: list[str]) -> list[float]:
     if len(cells) != len(names):
-        raise InvalidValue("path", f"{path}, line {line}", f"{len(names)} cells", f"it has {len(cells)}")
+        raise InvalidValue(f"line {line} of {path}", cells, f"{len(names)} cells", f"it has {len(cells)}")
     try:
         return [float(cell) for cell in cells]
     except ValueError as error:
-        raise InvalidValue("path", f"{path}, line {line}", "numbers", str(error)) from None
+        raise InvalidValue(f"line {line} of {path}", cells, "numbers", str(error)) from None

@@ -70,7 +70,7 @@ def simulate(
     checks.choice("method", method, METHODS)
     times, steps = _times(reference, t, duration, step)
     first = controller.start(reference, float(times[0])) if start is None else start
-    shape = _shape(first, controller, noise)
+    shape = _shape(start=first, controller=controller, noise=noise, limits=limits, reference=reference)
     targets = controller.targets(reference, times, len(shape))
     state = tuple(np.broadcast_to(part, shape) if shape else float(part) for part in first.parts)
     bare = limits is None and noise is None and type(plant) is Unicycle
@@ -129,10 +129,14 @@ def _times(
     duration = getattr(reference, "duration", None) if duration is None else duration
     if duration is None or step is None:
         raise InvalidValue("duration, step", (duration, step), "both, or t")
-    first = float(getattr(reference, "start_time", 0.0))
     length, h = checks.positive("duration", duration), checks.positive("step", step)
     if np.ndim(length) or np.ndim(h):
         raise InvalidShape("duration, step", f"shapes {np.shape(length)}, {np.shape(h)}", "one number each")
+    return _even(float(getattr(reference, "start_time", 0.0)), length, h)
+
+
+def _even(first: float, length: float, h: float) -> tuple[np.ndarray, np.ndarray]:
+    """Times h apart; the last step is what is left."""
     count = max(1, math.ceil(length / h - WHOLE_STEPS))
     last = length - (count - 1) * h
     steps = np.full(count, h)
@@ -142,9 +146,11 @@ def _times(
     return times, steps
 
 
-def _shape(first: Pose, controller: Controller, noise: Noise | None) -> tuple[int, ...]:
-    shapes = {"start": first.shape, "controller": controller.shape, "noise": noise.shape if noise else ()}
-    return checks.broadcast(**{name: np.empty(shape) for name, shape in shapes.items()})
+def _shape(*, reference: Any, **parts: Any) -> tuple[int, ...]:
+    """The leading shape of everything that takes part: that of the batch of robots."""
+    shapes = {name: part.shape for name, part in parts.items() if part is not None}
+    shapes["reference"] = () if reference is None else reference.position(0.0).shape[:-1]
+    return checks.broadcast(**{name: np.broadcast_to(0.0, shape) for name, shape in shapes.items()})
 
 
 def _rows(columns: Any, shape: tuple[int, ...]) -> Iterator[tuple[Any, ...]]:

@@ -19,7 +19,7 @@ _two_link_inverse = evaluator(arms.two_link_inverse)
 _turn_near = evaluator(arms.turn_near)
 _wrap = evaluator(se2.wrap)
 AT_SINGULAR = ("stop", "through", "bounce")
-NEARBY = 1e-6  # of the interval to the next knot: from how far a direction is taken where the tangent vanishes
+NEARBY = 1e-3  # of the way to the next knot: from how far a direction is taken where the tangent vanishes
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,9 +22,8 @@ from numba.misc.appdirs import user_cache_dir
 _lock = threading.Lock()
 
 
-@functools.cache
 def folder():
-    """The cache folder of these sources, or None if none can be written.
+    """The cache folder of these sources, or None if none can be written just now.
 
     ``COPLANAR_CACHE`` names another place than the user's cache folder.
     """
@@ -51,6 +50,7 @@ def in_folder():
             config.CACHE_DIR = before
 
 
+@functools.cache
 def _fingerprint():
     package = Path(__file__).parents[2]
     digest = hashlib.sha256(numba.__version__.encode())

@@ -1,0 +1,20 @@
+"""The workloads, in the order of the table."""
+
+from benchmarks.measure import Workload
+from benchmarks.workloads import arcs, chains, inverse, rollouts, segments, shots, tracking
+
+ALL: tuple[Workload, ...] = (
+    arcs.ONCE,
+    inverse.ONCE,
+    segments.ONCE,
+    arcs.BATCH,
+    inverse.BATCH,
+    segments.BATCH,
+    chains.FORWARD,
+    chains.SEARCH,
+    tracking.WORKLOAD,
+    rollouts.ROLLS,
+    rollouts.LOG,
+    shots.IMPACT,
+    shots.AIM,
+)
