@@ -38,10 +38,34 @@ def _rings(columns):
     return [x, y, inner, inner + width]
 
 
+def _turns(columns):
+    x, y, elbow, l1, l2, _, tolerance, rest = columns
+    x, y, l1, l2, elbow = _two_links([x, y, l1, l2, elbow])
+    return [x, y, elbow, l1, l2, np.abs(l1 - l2), 1e-6 * np.abs(tolerance), rest]
+
+
+def _reach(columns):
+    """Targets whose status is not a matter of the last digit."""
+    x, y, _, width, tolerance = columns
+    return [
+        np.round(x, 1) + 0.01,
+        np.round(y, 1),
+        0.0 * x + 0.55,
+        0.95 + np.abs(np.round(width, 1)),
+        0.0 * tolerance + 1e-3,
+    ]
+
+
 def _off_the_jumps(columns):
     """Angles whose whole turns are not a matter of the last digit."""
     angle, near, *limits = columns
     return [np.round(angle, 1) + 0.01, np.round(near, 1), *_ordered(limits)]
+
+
+def _joints_off_the_jumps(columns):
+    turn, before, bend, near, *limits = columns
+    turn, near, *limits = _off_the_jumps([turn, near, *limits])
+    return [turn, np.round(before, 1), np.round(bend, 1), near, *limits]
 
 
 def _ordered(limits):
@@ -52,8 +76,11 @@ def _ordered(limits):
 
 
 DOMAIN = {
+    arms.chosen_elbow: lambda columns: [np.round(c) for c in columns],
     arms.elbow_sides: _sides,
     arms.elbow_sine: _two_links,
+    arms.joint_near: _joints_off_the_jumps,
+    arms.joint_within: _joints_off_the_jumps,
     arms.ring_gap: _rings,
     arms.ring_nearest: _rings,
     arms.turn_near: _off_the_jumps,
@@ -61,4 +88,7 @@ DOMAIN = {
     arms.turn_within: _off_the_jumps,
     arms.two_link_inverse: _two_links,
     arms.two_link_rates: _rates,
+    arms.two_link_reach: _reach,
+    arms.two_link_triangle: _two_links,
+    arms.two_link_turns: _turns,
 }

@@ -10,13 +10,16 @@ import numpy as np
 
 from coplanar import checks
 from coplanar.arms import geometry
-from coplanar.arms.posture import Posture, column_rates, columns
+from coplanar.arms.plan import Plan, plan_of
+from coplanar.arms.posture import Posture, column_rates, columns, linkage
 from coplanar.checks import ArrayLike
 from coplanar.engine import stack
 from coplanar.se2 import Pose
 from coplanar.se2.triple import matrix_of
 
 TASKS = ("pose", "position")
+
+_FLOAT = frozenset((float,))
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +46,7 @@ class Chain:
     tool: Pose = field(default_factory=Pose)
     limits: Any = None
     bends: Any = None
+    plan: Plan = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         n = np.size(self.links)
@@ -58,6 +62,7 @@ class Chain:
             object.__setattr__(self, name, value)
         for name in ("base", "tool"):
             geometry.single_pose(name, getattr(self, name))
+        object.__setattr__(self, "plan", plan_of(self))
 
     @property
     def n(self) -> int:
@@ -90,8 +95,32 @@ class Chain:
             >>> tool.as_array().round(12).tolist()
             [1.0, 1.0, 1.570796326795]
         """
-        posture = Posture.of(self, self.checked_joints("q", q))
+        joints = self.joints_of(q)
+        if self._in_loops(joints):
+            return self._rows(joints, task=None)[0]
+        posture = Posture.of(self, joints)
         return Pose._of(*posture.tip, posture.angles[-1] + self.tool.theta)
+
+    def kinematics(self, q: ArrayLike, *, task: str = "pose") -> tuple[Pose, np.ndarray]:
+        """``forward`` and ``jacobian`` at once, for little more than either.
+
+        Args:
+            q: Joint variables, shape (..., n).
+            task: "pose" or "position".
+
+        Example:
+            >>> tool, jacobian = Chain((1.0, 0.5)).kinematics([0.0, 0.0])
+            >>> tool.x, jacobian[1].tolist()
+            (1.5, [1.5, 0.5])
+        """
+        _check_task(task)
+        joints = self.joints_of(q)
+        if self._in_loops(joints):
+            pose, jacobian = self._rows(joints, task=task)
+            return pose, np.asarray(jacobian)
+        posture = Posture.of(self, joints)
+        pose = Pose._of(*posture.tip, posture.angles[-1] + self.tool.theta)
+        return pose, _matrix(columns(self, posture), task)
 
     def points(self, q: ArrayLike) -> np.ndarray:
         """The base, the end of every link, and the tool where it stands off the last link's end.
@@ -106,12 +135,18 @@ class Chain:
             >>> Chain((1.0, 0.5)).points([0.0, 0.0]).tolist()
             [[0.0, 0.0], [1.0, 0.0], [1.5, 0.0]]
         """
-        posture = Posture.of(self, self.checked_joints("q", q))
-        off = (self.tool.x, self.tool.y) != (0.0, 0.0)
-        corners = [*posture.points, posture.tip] if off else posture.points
+        joints = self.joints_of(q)
+        if self._in_loops(joints):
+            points = np.empty((*joints.shape[:-1], self.n + (2 if self.plan.mounted else 1), 2))
+            linkage.places(
+                self.plan.table, joints.reshape(-1, self.n), None, points.reshape(-1, *points.shape[-2:]), None
+            )
+            return points
+        posture = Posture.of(self, joints)
+        corners = [*posture.points, posture.tip] if self.plan.mounted else posture.points
         xs, ys = (stack(part) for part in zip(*corners, strict=True))
-        points: np.ndarray = stack((xs, ys))
-        return points
+        corners_of: np.ndarray = stack((xs, ys))
+        return corners_of
 
     def jacobian(self, q: ArrayLike, *, task: str = "pose") -> np.ndarray:
         """J with [xdot, ydot, thetadot] = J q_rate, of the tool in the world.
@@ -130,7 +165,12 @@ class Chain:
             >>> Chain((1.0, 0.5)).jacobian([0.0, 0.0]).tolist()
             [[0.0, 0.0], [1.5, 0.5], [1.0, 1.0]]
         """
-        return _matrix(columns(self, Posture.of(self, self.checked_joints("q", q))), task)
+        if task not in TASKS:
+            _check_task(task)
+        joints = self.joints_of(q)
+        if self._in_loops(joints):
+            return np.asarray(self._rows(joints, task=task, pose=False)[1])
+        return _matrix(columns(self, Posture.of(self, joints)), task)
 
     def jacobian_dot(self, q: ArrayLike, q_rate: ArrayLike, *, task: str = "pose") -> np.ndarray:
         """dJ/dt along q_rate, so that the tool's acceleration is J q_acceleration + Jdot q_rate.
@@ -147,6 +187,7 @@ class Chain:
             >>> Chain((1.0, 0.5)).jacobian_dot([0.0, 0.0], [1.0, 0.0], task="position").tolist()
             [[-1.5, -0.5], [0.0, 0.0]]
         """
+        _check_task(task)
         at, rates = self.checked_joints("q", q), self.checked_joints("q_rate", q_rate)
         checks.broadcast(q=at, q_rate=rates)
         return _matrix(column_rates(self, Posture.of(self, at), rates), task)
@@ -162,6 +203,31 @@ class Chain:
         inside = ((joints >= self.lower - tolerance) & (joints <= self.upper + tolerance)).all(axis=-1)
         return bool(inside) if np.ndim(inside) == 0 else inside
 
+    def joints_of(self, q: ArrayLike, name: str = "q") -> Any:
+        """Checked joints as they are evaluated: floats of one configuration in a list, many in an array (..., n)."""
+        values = q.tolist() if type(q) is np.ndarray and q.ndim == 1 and q.dtype == np.float64 else q
+        if type(values) in (list, tuple) and _FLOAT.issuperset(map(type, values)) and len(values) == self.n:
+            total = sum(map(abs, values))
+            if total < math.inf:
+                return list(values)
+        checked = self.checked_joints(name, q)
+        return checked.tolist() if type(checked) is np.ndarray and checked.ndim == 1 else checked
+
+    def _in_loops(self, joints: Any) -> bool:
+        """Whether the compiled loops serve so many rows sooner."""
+        return type(joints) is np.ndarray and linkage.pays("chain", joints.size // self.n)
+
+    def _rows(self, joints: np.ndarray, *, task: str | None, pose: bool = True) -> tuple[Pose, np.ndarray | None]:
+        """Pose and Jacobian by the compiled loop."""
+        lead = joints.shape[:-1]
+        rows = joints.size // self.n
+        parts = np.empty((3, rows if pose else 0))
+        height = 3 if task == "pose" else 2
+        jacobian = None if task is None else np.empty((rows, height, self.n))
+        linkage.places(self.plan.table, joints.reshape(-1, self.n), parts, None, jacobian)
+        tool = Pose._of(*(part.reshape(lead) for part in parts)) if pose else self.base
+        return tool, None if jacobian is None else jacobian.reshape(*lead, height, self.n)
+
     def checked_joints(self, name: str, q: ArrayLike) -> Any:
         """One finite value for every joint, shape (..., n); ``name`` is what an error calls it."""
         return checks.vector(name, q, self.n, remedy=f"give one value for each of the {self.n} joints")
@@ -169,6 +235,12 @@ class Chain:
 
 def _matrix(table: list[tuple[Any, Any, float]], task: str) -> np.ndarray:
     """The Jacobian from its columns."""
-    checks.choice("task", task, TASKS)
-    rows = list(zip(*table, strict=True))
-    return matrix_of(*(rows if task == "pose" else rows[:2]))
+    xs, ys, turns = zip(*table, strict=True)
+    if type(xs[0]) is float:
+        return np.array(xs + ys + turns if task == "pose" else xs + ys).reshape(-1, len(table))
+    return matrix_of(xs, ys, turns) if task == "pose" else matrix_of(xs, ys)
+
+
+def _check_task(task: str) -> None:
+    if task not in TASKS:
+        checks.choice("task", task, TASKS)

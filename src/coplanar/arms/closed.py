@@ -1,23 +1,37 @@
-"""Closed forms: two revolute joints for a position, three for a pose, both branches of each."""
+"""Closed forms: two revolute joints for a position, three for a pose, both branches of each, worked out when asked."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from coplanar.arms import geometry
 from coplanar.arms.chain import Chain
+from coplanar.arms.geometry import tool_lever
+from coplanar.arms.goal import ELBOWS, Goal
+from coplanar.arms.plan import TwoLinks
 from coplanar.engine import evaluator
 from coplanar.laws import arms as laws
+from coplanar.laws import se2
+from coplanar.solving import Report
 
-ELBOWS = (1, -1)  # the order of the branches
+__all__ = [
+    "ELBOWS", "Closed", "Triangle", "elbow_of", "has_closed_form", "joints_of_turns", "triangle_of", "wind",
+]  # fmt: skip
 
-_ring_gap = evaluator(laws.ring_gap)
+ENDLESS = 1e15  # [rad] where there is no limit: the angle whose neighbour is a turn away
+
+_act_inverse = evaluator(se2.act_inverse)
+_chosen_elbow = evaluator(laws.chosen_elbow)
+_joint_near = evaluator(laws.joint_near)
+_joint_within = evaluator(laws.joint_within)
 _turn_near = evaluator(laws.turn_near)
 _turn_within = evaluator(laws.turn_within)
-_two_link_inverse = evaluator(laws.two_link_inverse)
+_two_link_reach = evaluator(laws.two_link_reach)
+_two_link_turns = evaluator(laws.two_link_turns)
 _wrist = evaluator(laws.wrist)
 
 
@@ -26,12 +40,12 @@ class Triangle:
     """The two links that a closed form solves, and their target from the base.
 
     Attributes:
-        x: Target of the second link's end in the base frame, shape (k,) [m].
+        x: Target of the second link's end in the base frame, a float or shape (k,) [m].
         y: Likewise.
         l1: First link [m].
         l2: Second link, or the line from the second joint to the tool [m].
         lean: Angle from the second link to that line [rad].
-        heading: Direction of the third link in the base frame [rad], shape (k,); None without one.
+        heading: Direction of the third link in the base frame [rad]; None without one.
     """
 
     x: Any
@@ -41,52 +55,147 @@ class Triangle:
     lean: float
     heading: Any
 
-    @property
-    def radius(self) -> Any:
-        """Distance of the target from the base, shape (k,) [m]."""
-        return np.hypot(self.x, self.y)
-
-    def gap(self) -> Any:
-        """Distance of the target from the ring that the two links reach, shape (k,) [m]."""
-        return one_row(_ring_gap, self.x, self.y, *geometry.ring((self.l1, self.l2)))
-
-
-def one_row(law: Any, *args: Any) -> Any:
-    """The law on columns; a single row goes by floats, which is ten times faster there."""
-    if len(args[0]) != 1:
-        return law(*args)
-    answer = law(*(float(a) if type(a) is float else a.item() for a in args))
-    return tuple(np.array([a]) for a in answer) if isinstance(answer, tuple) else np.array([answer])
-
-
-def has_closed_form(chain: Chain, with_heading: bool) -> bool:
-    """Whether ``triangle_of`` holds: RR and a position, RRR and a pose."""
-    return bool(chain.joints == ("RRR" if with_heading else "RR"))
-
 
 def triangle_of(chain: Chain, points: np.ndarray, headings: np.ndarray | None) -> Triangle:
     """The triangle of base, elbow and wrist for world targets, shape (k, 2)."""
-    x, y = chain.base.act_inverse(points[:, 0], points[:, 1])
-    if headings is None:
-        lever, lean = geometry.tool_lever(chain)
-        return Triangle(x, y, chain.links[0], lever, lean, None)
-    heading = headings - chain.base.theta - chain.tool.theta
-    x, y = _wrist(x, y, heading, chain.links[-1] + chain.tool.x, chain.tool.y)
-    return Triangle(x, y, chain.links[0], chain.links[1], 0.0, heading)
+    links = links_of(chain, headings is not None)
+    x, y, heading = _from_base(chain, points[:, 0], points[:, 1], headings)
+    return Triangle(x, y, links.l1, links.l2, links.lean, heading)
 
 
-def branches_of(chain: Chain, triangle: Triangle, near: np.ndarray, free: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Joints of both branches, shape (k, 2, n), and which are within the limits, shape (k, 2).
+def _from_base(chain: Chain, x: Any, y: Any, heading: Any) -> tuple[Any, Any, Any]:
+    """Where the second link ends, in the base frame, and the third link's direction."""
+    base = chain.base
+    if not chain.plan.at_origin:
+        x, y = _act_inverse(base.x, base.y, base.theta, x, y)
+    if heading is None:
+        return x, y, None
+    turned = heading - base.theta - chain.tool.theta
+    return *_wrist(x, y, turned, chain.links[-1] + chain.tool.x, chain.tool.y), turned
 
-    Args:
-        chain: The arm.
-        triangle: What to solve.
-        near: Joints to come nearest to, shape (k, n).
-        free: Where the first joint is free and keeps its value in ``near``, shape (k,).
+
+def links_of(chain: Chain, with_heading: bool) -> Any:
+    """The ``TwoLinks`` of the closed form, or None: RR and a position, RRR and a pose."""
+    return chain.plan.pose if with_heading else chain.plan.position
+
+
+def has_closed_form(chain: Chain, with_heading: bool) -> bool:
+    """Whether ``triangle_of`` holds."""
+    return links_of(chain, with_heading) is not None
+
+
+class Closed:
+    """The answer in closed form, in columns as the goal's; of what nobody asks for nothing is computed.
+
+    Joints are a list of floats for one target, a table of shape (n, k) for many.
     """
-    both = [_joints(chain, triangle, elbow, near[:, 0], free) for elbow in ELBOWS]
-    q = wind(chain, np.stack(both, axis=1), near[:, None, :])
-    return q, np.asarray(((q >= chain.lower) & (q <= chain.upper)).all(axis=-1))
+
+    report = Report()
+
+    def __init__(self, chain: Chain, goal: Goal, links: TwoLinks) -> None:
+        self._chain, self._goal, self._links = chain, goal, links
+        self._x, self._y, self._heading = _from_base(chain, goal.x, goal.y, goal.heading)
+        self._plain = chain.plan.plain and goal.near is None
+        # One branch is enough where no limit and no nearness has a say in which.
+        self._one_will_do = chain.limits is None and (goal.near is None or goal.elbow is not None)
+        if self._one_will_do:
+            self.elbow = 1.0 if goal.elbow is None else goal.elbow
+            self.joints = self._branch(self.elbow)[0]
+        else:
+            self.elbow, self.joints = self._choice()
+
+    @cached_property
+    def _reach(self) -> Any:
+        links = self._links
+        return _two_link_reach(self._x, self._y, links.inner, links.outer, self._goal.tolerance)
+
+    @property
+    def gap(self) -> Any:
+        """Distance of the target from the ring [m]."""
+        return self._reach[0]
+
+    @property
+    def code(self) -> Any:
+        """Place of the status in ``Reach``."""
+        return self._reach[1]
+
+    @property
+    def iterations(self) -> Any:
+        """None."""
+        return 0.0 if type(self.elbow) is float else np.zeros(self._x.shape)
+
+    @property
+    def inside(self) -> tuple[Any, Any]:
+        """For each branch 1 where its joints are within the limits, else 0."""
+        return self._both[0][1], self._both[1][1]
+
+    @cached_property
+    def _both(self) -> tuple[Any, Any]:
+        return self._branch(1.0), self._branch(-1.0)
+
+    @cached_property
+    def branches(self) -> tuple[Any, Any]:
+        """The joints of the elbow's +1, then of -1."""
+        if not self._one_will_do:
+            return self._both[0][0], self._both[1][0]
+        elbow, other = self.elbow, self._branch(-self.elbow)[0]
+        if type(elbow) is float:
+            return (self.joints, other) if elbow > 0.0 else (other, self.joints)
+        return np.where(elbow > 0.0, self.joints, other), np.where(elbow > 0.0, other, self.joints)
+
+    def _choice(self) -> tuple[Any, Any]:
+        """Which branch serves each target, and its joints."""
+        (up, inside_up), (down, inside_down) = self._both
+        near, wish = self._goal.near, self._goal.elbow
+        off = (0.0, 0.0) if near is None else (_square_off(up, near), _square_off(down, near))
+        elbow = _chosen_elbow(*off, 0.0 if wish is None else wish, inside_up, inside_down)
+        if type(elbow) is float:
+            return elbow, up if elbow > 0.0 else down
+        return elbow, np.where(elbow > 0.0, up, down)
+
+    def _branch(self, elbow: Any) -> tuple[Any, Any]:
+        """Joints of one branch, and 1 where they are within the limits, else 0."""
+        links, chain = self._links, self._chain
+        rest = 0.0 if self._plain else self._near(0) + chain.bends[0]
+        given = (self._x, self._y, elbow, links.l1, links.l2, links.inner, self._goal.tolerance, rest)
+        if not self._goal.lead:
+            turns = _two_link_turns.on_floats(*given)
+            return (turns, 1.0) if self._plain else self._joints(*turns)
+        table = np.empty((2, len(self._x)))
+        _two_link_turns.into((table[0], table[1]), *given)
+        return (table, 1.0) if self._plain else self._joints(*table)
+
+    def _joints(self, first: Any, second: Any) -> tuple[Any, Any]:
+        """From the turn of the first link against the base, and of the second against the first."""
+        chain, lean = self._chain, self._links.lean
+        turns = [first, second] if self._heading is None else [first, second, self._heading - first - second]
+        before = [0.0, first, first + second] if chain.angles == "absolute" else [0.0, 0.0, 0.0]
+        bends = [chain.bends[0], chain.bends[1] + lean, *chain.bends[2:]]
+        given = [(turn, before[i], bends[i], self._near(i)) for i, turn in enumerate(turns)]
+        if chain.limits is None:
+            joints, inside = [_joint_near(*row) for row in given], 1.0
+        else:
+            pairs = [_joint_within(*row, *limit) for row, limit in zip(given, self._bounds, strict=True)]
+            joints, inside = [q for q, _ in pairs], math.prod(fine for _, fine in pairs)
+        return (np.stack(joints) if self._goal.lead else joints), inside
+
+    @property
+    def _bounds(self) -> list[tuple[float, float]]:
+        """Limits as finite numbers."""
+        return [(max(low, -ENDLESS), min(high, ENDLESS)) for low, high in self._chain.limits]
+
+    def _near(self, i: int) -> Any:
+        """What joint i comes nearest to: the wish, brought within the limits."""
+        near = 0.0 if self._goal.near is None else self._goal.near[i]
+        if self._chain.limits is None:
+            return near
+        lower, upper = self._chain.limits[i]
+        return min(max(near, lower), upper) if type(near) is float else np.clip(near, lower, upper)
+
+
+def _square_off(joints: Any, near: Any) -> Any:
+    """Square of the distance of joints from others."""
+    return sum((q - p) * (q - p) for q, p in zip(joints, near, strict=True))
 
 
 def wind(chain: Chain, q: np.ndarray, near: np.ndarray) -> np.ndarray:
@@ -95,16 +204,7 @@ def wind(chain: Chain, q: np.ndarray, near: np.ndarray) -> np.ndarray:
         turned = np.asarray(_turn_near(q, near))
     else:
         turned = np.asarray(_turn_within(q, near, chain.lower, chain.upper))
-    return np.where(np.array(list(chain.joints)) == "R", turned, q)
-
-
-def _joints(chain: Chain, triangle: Triangle, elbow: int, near: np.ndarray, free: np.ndarray) -> np.ndarray:
-    first, second = one_row(_two_link_inverse, triangle.x, triangle.y, triangle.l1, triangle.l2, float(elbow))
-    first = np.where(free, near + chain.bends[0], first)
-    turns = [first, second - triangle.lean]
-    if triangle.heading is not None:
-        turns.append(triangle.heading - first - second)
-    return joints_of_turns(chain, turns)
+    return turned if "P" not in chain.joints else np.where(np.array(list(chain.joints)) == "R", turned, q)
 
 
 def joints_of_turns(chain: Chain, turns: list[Any]) -> np.ndarray:
@@ -116,7 +216,7 @@ def joints_of_turns(chain: Chain, turns: list[Any]) -> np.ndarray:
 
 def elbow_of(chain: Chain, q: np.ndarray) -> Any:
     """Sign of the sine at the elbow, +1 where it is 0: relative to the line to the tool for a two-link arm."""
-    lean = geometry.tool_lever(chain)[1] if chain.n == 2 else 0.0
+    lean = tool_lever(chain)[1] if chain.n == 2 else 0.0
     parts = q + np.array(chain.bends)
     turn = parts[..., 1] - (parts[..., 0] if chain.angles == "absolute" else 0.0) + lean
     return np.where(np.sin(turn) < 0.0, -1, 1)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from coplanar.arms.chain import Chain
+from coplanar.arms.goal import Goal, shaped
 from coplanar.engine import evaluator
 from coplanar.errors import NoSolution
 from coplanar.laws import se2
@@ -30,37 +31,105 @@ class Reach(Enum):
     BUDGET_SPENT = "the iterations are spent: the best point so far"
 
 
-@dataclass(frozen=True, slots=True)
+_ON_AXIS = code_of(Reach.FIRST_JOINT_FREE)
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Solution:
     """The answer of ``Arm.inverse``; the leading axes are those of the targets.
 
+    Branches, status and gap are computed when they are first asked for, and kept; arrays are read-only.
+
     Attributes:
         chain: The arm.
-        target: Wanted position of the tool in the world, shape (..., 2) [m].
-        heading: Wanted heading of the tool [rad], shape (...); None where only a position was asked for.
-        q: Chosen joints, shape (..., n).
-        branches: Every branch, shape (..., b, n): the elbow's +1 then -1 in closed form, ``q`` alone otherwise. Whole
-            turns are added to come nearest to ``near``, or within the limits.
-        allowed: Which branches are within the limits, shape (..., b).
-        elbow: Sign of the sine at the elbow of ``q``, an int or an array; 0 where there is no closed form.
-        code: Place of the status in ``Reach``, an int or an array of them.
-        gap: Distance from the target to the nearest point found; 0 where it is reached, but for a target that was
-            taken for reached within the tolerance [m].
-        iterations: Of the numerical search; 0 for a closed form.
-        report: Every iteration of a single numerical search.
+        goal: What was asked for.
+        answer: The columns that the properties show.
     """
 
     chain: Chain
-    target: np.ndarray
-    heading: Any
-    q: np.ndarray
-    branches: np.ndarray
-    allowed: np.ndarray
-    elbow: Any
-    code: Any
-    gap: Any
-    iterations: Any
-    report: Report
+    goal: Goal
+    answer: Any
+
+    def __repr__(self) -> str:
+        return f"Solution({count_by_status(Reach, self.code)}; q of shape {self.q.shape})"
+
+    @property
+    def target(self) -> np.ndarray:
+        """Wanted position of the tool in the world, shape (..., 2) [m]."""
+        return self.goal.points
+
+    @property
+    def heading(self) -> Any:
+        """Wanted heading of the tool [rad], a float or shape (...); None where only a position was asked for."""
+        return None if self.goal.heading is None else self._shaped(self.goal.heading)
+
+    @property
+    def q(self) -> np.ndarray:
+        """Chosen joints, shape (..., n); for a batch a view of columns, joint by joint contiguous."""
+        return shaped(self.answer.joints, self.goal.lead)
+
+    @property
+    def branches(self) -> np.ndarray:
+        """Every branch, shape (..., b, n): the elbow's +1 then -1 in closed form, ``q`` alone otherwise.
+
+        Whole turns are added to come nearest to ``near``, or within the limits.
+        """
+        lead, parts = self.goal.lead, self.answer.branches
+        if not lead:
+            branches = np.array(parts).reshape(len(parts), -1)
+        else:
+            branches = np.stack([shaped(branch, lead) for branch in parts], axis=-2)
+        branches.flags.writeable = False
+        return branches
+
+    @property
+    def allowed(self) -> np.ndarray:
+        """Which branches are within the limits, shape (..., b)."""
+        lead = self.goal.lead
+        return np.stack([np.broadcast_to(self._shaped(part), lead) == 1.0 for part in self.answer.inside], axis=-1)
+
+    @property
+    def elbow(self) -> Any:
+        """Sign of the sine at the elbow of ``q``, an int or an array; 0 where there is no closed form."""
+        return self._whole(self.answer.elbow)
+
+    @property
+    def code(self) -> Any:
+        """Place of the status in ``Reach``, an int or an array of them."""
+        return self._whole(self.answer.code)
+
+    @property
+    def gap(self) -> Any:
+        """Distance from the target to the nearest point found [m].
+
+        0 where it is reached, but for a target that was taken for reached within the tolerance.
+        """
+        return self._shaped(self.answer.gap)
+
+    @property
+    def iterations(self) -> Any:
+        """Of the numerical search, an int or an array; 0 for a closed form."""
+        return self._whole(self.answer.iterations)
+
+    @property
+    def report(self) -> Report:
+        """Every iteration of a single numerical search."""
+        report: Report = self.answer.report
+        return report
+
+    def _shaped(self, column: Any) -> Any:
+        """A float, or a read-only array of the leading shape."""
+        if not self.goal.lead:
+            return column if type(column) is float else float(column[0])
+        array = np.full(self.goal.lead, column) if type(column) is float else column.reshape(self.goal.lead)
+        array.flags.writeable = False
+        return array
+
+    def _whole(self, column: Any) -> Any:
+        """An int, or an array of them."""
+        if not self.goal.lead:
+            return int(column if type(column) is float else column[0])
+        return self._shaped(column).astype(np.int64)
 
     @property
     def status(self) -> Any:
@@ -70,7 +139,7 @@ class Solution:
     @property
     def reached(self) -> Any:
         """Whether the tool is at the target to within the tolerance; an array of bool for a batch."""
-        return self.code <= code_of(Reach.FIRST_JOINT_FREE)
+        return self.code <= _ON_AXIS
 
     @property
     def nearest(self) -> np.ndarray:

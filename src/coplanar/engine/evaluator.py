@@ -74,8 +74,7 @@ class Evaluator:
         shape = self._shape(inputs)
         if not shape:
             return self(*(float(a) for a in inputs))
-        rows = math.prod(shape)
-        if rows >= (FIRST_COMPILED_ROWS if self._kernel is None else COMPILED_ROWS) and can_compile():
+        if self._compiles(math.prod(shape)):
             return self.on_compiled(*inputs)
         return self.on_text(*inputs)
 
@@ -107,6 +106,23 @@ class Evaluator:
             _check_out(outs, self._results, shape, dtype)
         self.kernel().run(inputs, outs, shape)
         return outs if self._returns_tuple else outs[0]
+
+    def into(self, out: tuple[np.ndarray, ...], *args: Any) -> None:
+        """Evaluate NumPy rows and write them into these arrays: one for each result, of the broadcast shape.
+
+        Args:
+            out: Float64 arrays.
+            *args: Numbers and arrays, not all of them numbers.
+        """
+        if self._compiles(out[0].size):
+            self.on_compiled(*args, out=out)
+            return
+        answer = self.on_text(*args)
+        for array, part in zip(out, answer if isinstance(answer, tuple) else (answer,), strict=True):
+            array[...] = part
+
+    def _compiles(self, rows: int) -> bool:
+        return rows >= (FIRST_COMPILED_ROWS if self._kernel is None else COMPILED_ROWS) and can_compile()
 
     @functools.cached_property
     def _one_answer(self) -> Any:

@@ -19,6 +19,16 @@ def link(x, y, angle, length):
     return x + length * c, y + length * s
 
 
+def joint_link(x, y, angle, q, carry, turns, bend, length, slides):
+    """The next link's end and direction: phi = carry phi_before + turns q + bend, P += (l + slides q) [cos, sin].
+
+    carry is 1, or 0 for an absolute angle; turns and slides are 1 and 0 at a revolute joint, 0 and 1 at a prismatic.
+    """
+    phi = carry * angle + turns * q + bend
+    px, py = link(x, y, phi, length + slides * q)
+    return px, py, phi
+
+
 def link_velocity(vx, vy, angle, rate, length, length_rate):
     """Qdot = Pdot + l phidot [-sin phi, cos phi] + ldot [cos phi, sin phi]."""
     s, c = sincos(angle)
@@ -57,6 +67,20 @@ def elbow_sides(r, l1, l2):
     return sqrt((outer - r) * (outer + r)), sqrt((r - inner) * (r + inner))
 
 
+def two_link_triangle(x, y, l1, l2):
+    """Radius r, 2 l1 times the second link's reach along and across the first, r^2 + l1^2 - l2^2 and a b, and |q2|."""
+    r = hypot(x, y)
+    a, b = elbow_sides(r, l1, l2)
+    return r, r * r + (l1 - l2) * (l1 + l2), a * b, 2.0 * atan2(a, b)
+
+
+def first_direction(x, y, k1, k2):
+    """Direction of the first link, atan2(k1 y - k2 x, k1 x + k2 y); 0 where it is free."""
+    sine, cosine = k1 * y - k2 * x, k1 * x + k2 * y
+    free = (sine == 0.0) & (cosine == 0.0)
+    return atan2(sine, where(free, 1.0, cosine))
+
+
 def two_link_inverse(x, y, l1, l2, elbow):
     """Joints (q1, q2) with the tip at (x, y), q2 relative; elbow = +1 or -1 is the sign of sin q2.
 
@@ -64,13 +88,21 @@ def two_link_inverse(x, y, l1, l2, elbow):
     which are 2 l1 times l1 + l2 cos q2 and l2 sin q2. Out of reach: the arm points at the target, stretched or
     folded. On the base q1 is free, and 0.
     """
-    r = hypot(x, y)
-    a, b = elbow_sides(r, l1, l2)
-    k1 = r * r + (l1 - l2) * (l1 + l2)
-    k2 = elbow * a * b
-    sine, cosine = k1 * y - k2 * x, k1 * x + k2 * y
-    free = (sine == 0.0) & (cosine == 0.0)
-    return atan2(sine, where(free, 1.0, cosine)), 2.0 * elbow * atan2(a, b)
+    _, k1, k2, bend = two_link_triangle(x, y, l1, l2)
+    return first_direction(x, y, k1, elbow * k2), elbow * bend
+
+
+def two_link_turns(x, y, elbow, l1, l2, inner, tolerance, rest):
+    """The two-link inverse with the first link at ``rest`` where it is free: the target is on its axis, and reached."""
+    r, k1, k2, bend = two_link_triangle(x, y, l1, l2)
+    free = (r == 0.0) | ((r <= tolerance) & (inner - r <= tolerance))
+    return where(free, rest, first_direction(x, y, k1, elbow * k2)), elbow * bend
+
+
+def two_link_reach(x, y, inner, outer, tolerance):
+    """Gap to the ring, and how the target stands: 0 reached, 1 and on the axis, 2 beyond the ring, 3 in its hole."""
+    r, gap = hypot(x, y), ring_gap(x, y, inner, outer)
+    return gap, where(gap <= tolerance, where(r <= tolerance, 1.0, 0.0), where(r > outer, 2.0, 3.0))
 
 
 def elbow_sine(x, y, l1, l2):
@@ -122,6 +154,24 @@ def turn_within(angle, near, lower, upper):
     return angle + TAU * where(above > most, most, above)
 
 
+def joint_near(turn, before, bend, near):
+    """Joint of a link near another: its turn, on top of the direction before for absolute angles, less its bend."""
+    return turn_near(turn + before - bend, near)
+
+
+def joint_within(turn, before, bend, near, lower, upper):
+    """The same within limits, and whether it is: 1 or 0."""
+    q = turn_within(turn + before - bend, near, lower, upper)
+    return q, where((q >= lower) & (q <= upper), 1.0, 0.0)
+
+
+def chosen_elbow(off_up, off_down, wish, inside_up, inside_down):
+    """+1 or -1: the only branch inside the limits, else the wished one, else the one less far off; +1 of equals."""
+    nearer = where(off_down < off_up, -1.0, 1.0)
+    wanted = where(wish == 0.0, nearer, wish)
+    return where(inside_up == inside_down, wanted, where(inside_up > inside_down, 1.0, -1.0))
+
+
 def turn_onto(angle, near, lower, upper):
     """Of [lower, upper], what is nearest to ``angle`` around the circle: a turn of it inside, or the nearer end."""
     inside = turn_within(angle, near, lower, upper)
@@ -145,3 +195,8 @@ def axis_angle(ax, ay):
     """Direction of an undirected axis, in (-pi/2, pi/2]."""
     angle = atan2(ay, ax)
     return where(angle > 0.5 * PI, angle - PI, where(angle <= -0.5 * PI, angle + PI, angle))
+
+
+def task_error(x, y, angle, target_x, target_y, heading, weight):
+    """Tool less target [m]; the turn between them, in (-pi, pi], counts ``weight`` metres a radian."""
+    return x - target_x, y - target_y, weight * wrap(angle - heading)

@@ -8,15 +8,22 @@ from typing import Any
 
 import numpy as np
 
+from coplanar.engine import evaluator
 from coplanar.errors import InvalidShape, InvalidValue
+from coplanar.laws import squares as laws
 from coplanar.solving.report import Iteration
 from coplanar.solving.status import Status, code_of
 
 DIFFERENCE = float(np.finfo(np.float64).eps) ** (1 / 3)  # central differences: truncation and rounding meet here
-LEAST_DAMPING = 1e-14  # of the trace of J J^T: keeps a rank-deficient system solvable, far below any that matters
-GOOD, POOR, TAKEN = 0.75, 0.25, 1e-4  # actual over predicted gain: relax, tighten, accept  [Fan and Yuan 2005]
-RELAX, TIGHTEN, REFUSE = 0.1, 4.0, 16.0  # factors of the damping
-DAMPING_FLOOR = 1e-10  # of lambda/|F|^2: so that it can rise again within a few iterations
+FEW = 3  # equations or unknowns that a closed form serves
+
+_adapted = evaluator(laws.adapted)
+_damping = evaluator(laws.damping)
+_free = evaluator(laws.free)
+_gain = evaluator(laws.gain)
+_shortening = evaluator(laws.shortening)
+_solve_three = evaluator(laws.solve_three)
+_still = evaluator(laws.still)
 
 _OPEN = code_of(Status.BUDGET_SPENT)
 
@@ -124,15 +131,14 @@ class Search:
         step, damping = self._step(rows, slopes, settings)
         trial = np.clip(x + step, self.problem.limits.lower, self.problem.limits.upper)
         there = self.problem.residual(trial, parameters, self.single)
-        cost = _square(value)
-        predicted = cost - _square(value + np.einsum("kmn,kn->km", slopes, trial - x))
-        gain = np.where(predicted > 0.0, (cost - _square(there)) / predicted, -1.0)
-        taken = np.isfinite(there).all(axis=-1) & ((gain > TAKEN) | (settings.method == "newton"))
+        expected = _square(value + np.einsum("kmn,kn->km", slopes, trial - x))
+        gained = _gain(_square(value), expected, _square(there))
+        self.factor[rows], fine = _adapted(self.factor[rows], gained)
+        taken = np.isfinite(there).all(axis=-1) & ((fine > 0.0) | (settings.method == "newton"))
         length = np.sqrt(_square(np.where(np.isfinite(step), trial - x, np.inf)))
         self.calls[rows] += 1 + calls
         self.used[rows] += 1
         self.x[rows[taken]], self.value[rows[taken]] = trial[taken], there[taken]
-        self._adapt(rows, gain, taken)
         self._stop(rows, length, settings.step_tolerance)
         self._note(length, damping, taken)
 
@@ -143,30 +149,19 @@ class Search:
             damping, step = np.zeros(len(rows)), _newton_step(slopes, value)
         else:
             free = self._without_blocked(self.x[rows], value, slopes)
-            trace = _square(free.reshape(len(rows), -1))
-            damping = self.factor[rows] * _square(value) + LEAST_DAMPING * trace + np.finfo(float).tiny
+            damping = _damping(self.factor[rows], _square(value), _square(free.reshape(len(rows), -1)))
             step = _damped_step(free, value, damping)
-        length = np.sqrt(_square(step))
-        over = np.isfinite(length) & (length > settings.longest_step)
-        return step * np.where(over, settings.longest_step / length, 1.0)[:, None], damping
+        return step * _shortening(np.sqrt(_square(step)), settings.longest_step)[:, None], damping
 
     def _without_blocked(self, x: np.ndarray, value: np.ndarray, slopes: np.ndarray) -> np.ndarray:
         """The Jacobian without the columns of entries that stand at a bound and want to pass it."""
-        downhill = -np.einsum("kmn,km->kn", slopes, value)
-        limits = self.problem.limits
-        blocked = ((x <= limits.lower) & (downhill < 0.0)) | ((x >= limits.upper) & (downhill > 0.0))
-        return np.where(blocked[:, None, :], 0.0, slopes)
-
-    def _adapt(self, rows: np.ndarray, gain: np.ndarray, taken: np.ndarray) -> None:
-        """Less damping where the linear model holds, more where it does not."""
-        change = np.where(gain > GOOD, RELAX, np.where(gain < POOR, TIGHTEN, 1.0))
-        change = np.where(taken, change, REFUSE)
-        self.factor[rows] = np.maximum(self.factor[rows] * change, DAMPING_FLOOR)
+        limits, slope = self.problem.limits, np.einsum("kmn,km->kn", slopes, value)
+        return np.asarray(slopes * _free(x, limits.lower, limits.upper, slope)[:, None, :])
 
     def _stop(self, rows: np.ndarray, length: np.ndarray, small: float) -> None:
         """Rows whose steps have become nothing, or do not exist."""
-        still = length <= small * (1.0 + np.sqrt(_square(self.x[rows])))
-        self.code[rows[still]] = code_of(Status.STALLED)
+        still = _still(length, np.sqrt(_square(self.x[rows])), small)
+        self.code[rows[still > 0.0]] = code_of(Status.STALLED)
         self.code[rows[~np.isfinite(length)]] = code_of(Status.SINGULAR)
 
     def _close(self, rows: np.ndarray, tolerance: float) -> None:
@@ -191,10 +186,21 @@ def _damped_step(slopes: np.ndarray, value: np.ndarray, damping: np.ndarray) -> 
     """-(J^T J + lambda I)^-1 J^T F, by the smaller of the two systems that give it."""
     m, n = slopes.shape[-2:]
     turned = slopes.swapaxes(-1, -2)
-    eye = damping[:, None, None] * np.eye(min(m, n))
     if n >= m:
-        return -(turned @ np.linalg.solve(slopes @ turned + eye, value[..., None]))[..., 0]
-    return -np.linalg.solve(turned @ slopes + eye, turned @ value[..., None])[..., 0]
+        return np.asarray(-(turned @ _solved(slopes @ turned, damping, value)[..., None])[..., 0])
+    return -_solved(turned @ slopes, damping, (turned @ value[..., None])[..., 0])
+
+
+def _solved(matrix: np.ndarray, damping: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """(matrix + lambda I)^-1 right, for each row; a system of up to three equations by its closed form."""
+    size = matrix.shape[-1]
+    if size > FEW:
+        return np.asarray(np.linalg.solve(matrix + damping[:, None, None] * np.eye(size), right[..., None])[..., 0])
+    whole, load = np.zeros((len(matrix), FEW, FEW)), np.zeros((len(matrix), FEW))
+    whole[:, :size, :size], load[:, :size] = matrix, right
+    a, b, c, d, e, f = (whole[:, i, j] for i, j in zip(*np.triu_indices(FEW), strict=True))
+    parts = _solve_three(a + damping, b, c, d + damping, e, f + damping, *load.T)
+    return np.stack(parts[:size], axis=-1)
 
 
 def _newton_step(slopes: np.ndarray, value: np.ndarray) -> np.ndarray:

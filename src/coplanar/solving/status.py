@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from enum import Enum
 from typing import Any
 
@@ -27,7 +28,7 @@ def code_of(member: Enum) -> int:
         >>> code_of(Status.CONVERGED), code_of(Status.BRACKETED)
         (0, 1)
     """
-    return list(type(member)).index(member)
+    return _members(type(member)).index(member)
 
 
 def status_of(kind: type[Enum], codes: Any) -> Any:
@@ -46,8 +47,13 @@ def status_of(kind: type[Enum], codes: Any) -> Any:
         >>> status_of(Status, np.array([0, 3]))[1].name
         'STALLED'
     """
-    members = np.array(list(kind), dtype=object)
-    return members[codes]
+    members = _members(kind)
+    return members[codes] if type(codes) is int else np.array(members, dtype=object)[codes]
+
+
+@functools.cache
+def _members(kind: type[Enum]) -> tuple[Enum, ...]:
+    return tuple(kind)
 
 
 def count_by_status(kind: type[Enum], codes: Any) -> str:

@@ -10,6 +10,8 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
+WIDTH = 256  # rows of a table: 64 columns of them are 128 KiB, which the second-level cache holds
+
 
 def _pointer(context, builder, kind, column, place):
     array = context.make_array(kind)(context, builder, column)
@@ -103,3 +105,53 @@ def sum_of(typing, columns, start, i):
         return total
 
     return columns[0].dtype(columns, types.intp, types.intp), generate
+
+
+@intrinsic
+def get(typing, table, column, i):
+    """Entry ``i`` of a column of a table of shape (columns, ``WIDTH``)."""
+
+    def generate(context, builder, signature, arguments):
+        pointer = _entry(context, builder, arguments, signature.args[0], 0)
+        return context.unpack_value(builder, signature.args[0].dtype, pointer)
+
+    return table.dtype(table, types.intp, types.intp), generate
+
+
+@intrinsic(prefer_literal=True)
+def some(typing, table, column, i, count):
+    """Entries ``i`` of as many columns, from this one on, as a tuple; the count is a literal."""
+    answer = types.UniTuple(table.dtype, count.literal_value)
+
+    def generate(context, builder, signature, arguments):
+        kind = signature.args[0]
+        pointers = [_entry(context, builder, arguments, kind, k) for k in range(count.literal_value)]
+        values = [context.unpack_value(builder, kind.dtype, pointer) for pointer in pointers]
+        return context.make_tuple(builder, signature.return_type, values)
+
+    return answer(table, types.intp, types.intp, count), generate
+
+
+@intrinsic
+def put(typing, table, column, i, value):
+    """Write a number as entry ``i`` of a column of such a table, or a tuple into the columns from this one on."""
+    many = isinstance(value, types.BaseTuple)
+
+    def generate(context, builder, signature, arguments):
+        kind, given = signature.args[0], arguments[3]
+        for k in range(len(value) if many else 1):
+            number = builder.extract_value(given, k) if many else given
+            number = context.cast(builder, number, value[k] if many else value, kind.dtype)
+            context.pack_value(builder, kind.dtype, number, _entry(context, builder, arguments, kind, k))
+        return context.get_dummy_value()
+
+    return types.void(table, types.intp, types.intp, value), generate
+
+
+def _entry(context, builder, arguments, kind, further):
+    """Where it is. That columns are ``WIDTH`` apart is known to the compiler, which then sees that they do not meet."""
+    table, column, i = arguments[:3]
+    array = context.make_array(kind)(context, builder, table)
+    first = builder.add(builder.mul(column, context.get_constant(types.intp, WIDTH)), i)
+    place = builder.add(first, context.get_constant(types.intp, further * WIDTH))
+    return builder.gep(array.data, [place])

@@ -27,13 +27,47 @@ _threads = threading.Lock()
 _process = os.getpid()
 
 
-class Kernel:
+class Loops:
+    """Laws inside compiled loops: each loop is compiled at its first call, with the laws under the names given here."""
+
+    def __init__(self, laws, texts) -> None:
+        """Laws by the names that the loops know them by, and for every kind of loop the module that holds it."""
+        self._laws = laws
+        self._texts = texts
+        self._lock = threading.Lock()
+        self._loops: dict = {}
+
+    def loop(self, kind, arguments, work, rows, constants=()):
+        """Threads where they pay and are free; a forked child never touches the parent's threads."""
+        threads_pay = work >= PARALLEL_FROM and rows >= 2 * scans.BLOCK and os.getpid() == _process
+        if threads_pay and _threads.acquire(blocking=False):
+            try:
+                self._call(kind, f"{kind}_parallel", constants, arguments)
+            finally:
+                _threads.release()
+        else:
+            self._call(kind, f"{kind}_serial", constants, arguments)
+
+    def _call(self, kind, loop, constants, arguments):
+        try:
+            self._compiled(kind, loop, constants)(*arguments)
+        except OSError:  # the cache folder went away, or is full
+            with self._lock:
+                self._loops[loop, constants] = _compile(self._laws, self._texts[kind], loop, constants, cached=False)
+            self._loops[loop, constants](*arguments)
+
+    def _compiled(self, kind, loop, constants):
+        with self._lock:
+            if (loop, constants) not in self._loops:
+                self._loops[loop, constants] = _compile(self._laws, self._texts[kind], loop, constants)
+            return self._loops[loop, constants]
+
+
+class Kernel(Loops):
     """A law inside compiled loops: ``run`` over rows, ``scan`` over steps of rows."""
 
     def __init__(self, law) -> None:
-        self._law = law
-        self._lock = threading.Lock()
-        self._loops: dict = {}
+        super().__init__({"law": law}, {"rows": loops, "scan": scans})
 
     def scan(self, initial, inputs, parameters, outputs, size):
         """Carry the state from step to step.
@@ -56,7 +90,7 @@ class Kernel:
             begin, walk, shared, own, tuple(c for c, _ in held), tuple(s for _, s in held), outputs, (count, width)
         )  # fmt: skip
         constants = (("KEEP", outputs[0].size > width), ("PATTERN", pattern))
-        self._loop("scan", arguments, count * width, width, constants)
+        self.loop("scan", arguments, count * width, width, constants)
 
     def run(self, inputs, outputs, shape):
         """Evaluate the law on every row of the broadcast inputs.
@@ -78,7 +112,7 @@ class Kernel:
         rows = math.prod(shape)
         if all(column is not None for column, _ in ready):
             ins, steps = zip(*ready, strict=True)
-            self._loop("rows", (ins, steps, columns, rows), rows, rows)
+            self.loop("rows", (ins, steps, columns, rows), rows, rows)
             return
         whole = [np.broadcast_to(a, shape).flat for a in inputs]
         steps = tuple(step for _, step in ready)
@@ -90,32 +124,7 @@ class Kernel:
                 for (column, step), flat in zip(ready, whole, strict=True)
             )
             outs = tuple(c[start:stop] for c in columns)
-            self._loop("rows", (ins, steps, outs, stop - start), stop - start, stop - start)
-
-    def _loop(self, kind, arguments, work, rows, constants=()):
-        """Threads where they pay and are free; a forked child never touches the parent's threads."""
-        threads_pay = work >= PARALLEL_FROM and rows >= 2 * scans.BLOCK and os.getpid() == _process
-        if threads_pay and _threads.acquire(blocking=False):
-            try:
-                self._call(f"{kind}_parallel", constants, arguments)
-            finally:
-                _threads.release()
-        else:
-            self._call(f"{kind}_serial", constants, arguments)
-
-    def _call(self, loop, constants, arguments):
-        try:
-            self._compiled(loop, constants)(*arguments)
-        except OSError:  # the cache folder went away, or is full
-            with self._lock:
-                self._loops[loop, constants] = _compile(self._law, loop, constants, cached=False)
-            self._loops[loop, constants](*arguments)
-
-    def _compiled(self, loop, constants):
-        with self._lock:
-            if (loop, constants) not in self._loops:
-                self._loops[loop, constants] = _compile(self._law, loop, constants)
-            return self._loops[loop, constants]
+            self.loop("rows", (ins, steps, outs, stop - start), stop - start, stop - start)
 
 
 def _column(array, shape, rows):
@@ -141,19 +150,21 @@ def _may_be_written(out, inputs):
     return out.flags.c_contiguous and out.flags.aligned and not any(np.may_share_memory(out, a) for a in inputs)
 
 
-def _compile(law, loop, constants, *, cached=True):
-    module = scans if loop.startswith("scan") else loops
-    label = "_".join(
-        [law.__module__.rpartition(".")[2], law.__name__, *(f"{k}{v}" for k, v in constants), _digest(law)]
-    )
-    safe_law = bind(law, SAFE, _out_of_line, _safe_laws)
-    fast_law = bind(law, FAST, inline, _fast_laws) if shows_every_nan(law) else safe_law
-    names = {"law": fast_law, "safe_law": safe_law, **dict(constants)}
-    for part in module.PARTS:
+def _compile(laws, texts, loop, constants, *, cached=True):
+    """The loop over these laws; beside each of them stands its safe form under the name ``safe_...``."""
+    first = next(iter(laws.values()))
+    digest = _digest(*laws.values())
+    label = "_".join([first.__module__.rpartition(".")[2], first.__name__, *(f"{k}{v}" for k, v in constants), digest])
+    names = dict(constants)
+    for name, law in laws.items():
+        safe_law = bind(law, SAFE, _out_of_line, _safe_laws)
+        names[f"safe_{name}"] = safe_law
+        names[name] = bind(law, FAST, inline, _fast_laws) if shows_every_nan(law) else safe_law
+    for part in texts.PARTS:
         names[part.__name__] = njit(_template(part, label, names), fastmath=FLAGS, error_model="numpy", nogil=True)
     with in_folder() as writeable:
         return njit(
-            _template(getattr(module, loop), label, names), fastmath=FLAGS, error_model="numpy", nogil=True,
+            _template(getattr(texts, loop), label, names), fastmath=FLAGS, error_model="numpy", nogil=True,
             cache=cached and writeable, parallel=loop.endswith("parallel"),
         )  # fmt: skip
 
@@ -166,10 +177,11 @@ def _template(text, label, names):
     return function
 
 
-def _digest(law):
-    """Of the law as it is in memory, with the laws it calls: it may be newer or older than its file, or have none."""
+def _digest(*laws):
+    """Of laws as they are in memory, with those they call: one may be newer or older than its file, or have none."""
     digest = hashlib.sha256()
-    _add_text(law, digest, set())
+    for law in laws:
+        _add_text(law, digest, set())
     return digest.hexdigest()[:12]
 
 
