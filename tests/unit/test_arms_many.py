@@ -279,3 +279,11 @@ def test_results_are_written_where_the_caller_wants_them(rows):
     table = np.empty((2, rows))
     law.into((table[0], table[1]), 0.5, 0.0, angle, 2.0)
     assert np.allclose(table, [0.5 + 2.0 * np.cos(angle), 2.0 * np.sin(angle)], atol=1e-14)
+
+
+@NEEDS_NUMBA
+def test_the_laws_of_arms_that_serve_batches_are_compiled_with_the_fast_primitives():
+    from coplanar.engine.compiled.doubt import shows_every_nan
+
+    served = (laws.two_link_turns, laws.two_link_reach, laws.joint_near, laws.joint_within, laws.joint_link)
+    assert all(shows_every_nan(law) for law in served)

@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from coplanar.engine.evaluator import COMPILED_ROWS, FIRST_COMPILED_ROWS, can_compile
+from coplanar.engine.evaluator import FIRST_COMPILED_ROWS, can_compile
 
 SEARCH_STEPS = 10  # a row of a search is the work of so many rows of places
+FIRST_SEARCHED_ROWS = 5_000  # below this many searches a batch never waits for the compiler
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,8 +48,8 @@ class Linkage:
 
     def pays(self, kind: str, rows: int) -> bool:
         """Whether the compiled loop, "chain" or "search", serves so many rows sooner than NumPy text."""
-        work = rows * (SEARCH_STEPS if kind == "search" else 1)
-        return work >= (COMPILED_ROWS if kind in self._ready else FIRST_COMPILED_ROWS) and can_compile()
+        first = FIRST_SEARCHED_ROWS if kind == "search" else FIRST_COMPILED_ROWS
+        return rows >= (1 if kind in self._ready else first) and can_compile()
 
     def places(self, table: ChainTable, q: np.ndarray, pose: Any, points: Any, jacobian: Any) -> None:
         """Write what is wanted; what is not is None.

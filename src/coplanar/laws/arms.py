@@ -101,7 +101,8 @@ def two_link_turns(x, y, elbow, l1, l2, inner, tolerance, rest):
 
 def two_link_reach(x, y, inner, outer, tolerance):
     """Gap to the ring, and how the target stands: 0 reached, 1 and on the axis, 2 beyond the ring, 3 in its hole."""
-    r, gap = hypot(x, y), ring_gap(x, y, inner, outer)
+    r = hypot(x, y)
+    gap = radial_gap(r, inner, outer)
     return gap, where(gap <= tolerance, where(r <= tolerance, 1.0, 0.0), where(r > outer, 2.0, 3.0))
 
 
@@ -125,10 +126,14 @@ def wrist(x, y, angle, along, across):
     return x - (c * along - s * across), y - (s * along + c * across)
 
 
+def radial_gap(r, inner, outer):
+    """Distance of a radius r from the interval [inner, outer]; 0 inside it."""
+    return maximum(maximum(r - outer, inner - r), 0.0 * r)
+
+
 def ring_gap(x, y, inner, outer):
     """Distance from (x, y) to the ring inner <= r <= outer about the origin; 0 on it."""
-    r = hypot(x, y)
-    return maximum(maximum(r - outer, inner - r), 0.0 * r)
+    return radial_gap(hypot(x, y), inner, outer)
 
 
 def ring_nearest(x, y, inner, outer):
