@@ -1,0 +1,241 @@
+"""What the wheels of a robot measured, row by row, as odometry: counts, wheel rates, or velocities over time."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from math import tau
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from coplanar import checks
+from coplanar.errors import InvalidValue
+from coplanar.logs.columns import Rows
+from coplanar.motion import Odometry, Reckoning
+from coplanar.se2 import Displacement, Pose, Twist
+from coplanar.wheels import WheeledBase
+
+MOST_BITS = 53  # counts are exact in a float64 up to here
+MOST_COUNT = 2.0**MOST_BITS
+
+
+class Measured(ABC):
+    """How rows become displacements.
+
+    Attributes:
+        names: The columns, the time first.
+        timeless: Whether the time may be absent.
+        between: Whether a displacement belongs to two rows, and not to one.
+        allowed: What can have been measured, in words.
+    """
+
+    __slots__ = ()
+    timeless: ClassVar[bool] = False
+    between: bool = True
+    allowed: str = "finite numbers"
+
+    @property
+    @abstractmethod
+    def names(self) -> tuple[str, ...]:
+        """The columns, the time first."""
+
+    @abstractmethod
+    def displacements(self, values: np.ndarray, dt: Any) -> Displacement:
+        """What n + 1 rows, without their time, say about the n ticks of length dt [s] between them."""
+
+    def wrong(self, values: np.ndarray) -> np.ndarray:
+        """Which values cannot have been measured."""
+        return np.zeros(values.shape, dtype=bool)
+
+
+@dataclass(frozen=True, slots=True)
+class Velocities(Measured):
+    """Forward velocity v [m/s] and turn rate omega [rad/s], held until the next row.
+
+    Example:
+        >>> log = [Rows(np.array([[0.0, 1.0, 0.0], [2.0, 9.0, 9.0]]), np.array([1, 2]))]
+        >>> next(reckon(log, Velocities())).poses.x.tolist()
+        [0.0, 2.0]
+    """
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Time, velocity, turn rate."""
+        return ("t", "v", "omega")
+
+    def displacements(self, values: np.ndarray, dt: Any) -> Displacement:
+        """The velocities of each row but the last, for as long as they hold."""
+        v, omega = values[:-1].T
+        return Twist(v, 0.0, omega).during(dt)
+
+
+@dataclass(frozen=True, slots=True)
+class WheelRates(Measured):
+    """Rates of the wheels of a base [rad/s], held until the next row.
+
+    Attributes:
+        base: Whose wheels they are; the columns have their names.
+
+    Example:
+        >>> rates = WheelRates(WheeledBase.differential(track=0.5, radius=0.1))
+        >>> rates.names
+        ('t', 'left', 'right')
+    """
+
+    base: WheeledBase
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The time, then the wheels."""
+        return ("t", *self.base.names)
+
+    def displacements(self, values: np.ndarray, dt: Any) -> Displacement:
+        """The rates of each row but the last, for as long as they hold."""
+        return self.base.forward(values[:-1]).during(dt)
+
+
+@dataclass(frozen=True, slots=True)
+class Encoders(Measured):
+    """Whole counts of the encoders of a base's wheels, since some beginning or since the row before.
+
+    Attributes:
+        base: Whose wheels they are; the columns have their names.
+        ticks_per_turn: Counts of one turn of a wheel; negative where they count backwards.
+        bits: Of counters that wrap round, signed or not; None where they never do. Between two rows a wheel turns by
+            less than half of their range.
+        since_last: Whether a row counts since the one before.
+
+    Raises:
+        InvalidValue: If the ticks are 0 or not finite, or there are less than 2 or more than 53 bits.
+
+    Example:
+        >>> encoders = Encoders(WheeledBase.differential(track=0.5, radius=0.5), ticks_per_turn=100.0, bits=8)
+        >>> log = [Rows(np.array([[250.0, 250.0], [4.0, 4.0]]), np.array([1, 2]))]
+        >>> next(reckon(log, encoders)).poses.x.round(6).tolist()  # ten ticks of 0.0314 m
+        [0.0, 0.314159]
+    """
+
+    base: WheeledBase
+    ticks_per_turn: float = field(kw_only=True)
+    bits: int | None = field(default=None, kw_only=True)
+    since_last: bool = field(default=False, kw_only=True)
+    timeless: ClassVar[bool] = True
+
+    def __post_init__(self) -> None:
+        if checks.real("ticks_per_turn", self.ticks_per_turn) == 0.0:
+            raise InvalidValue("ticks_per_turn", self.ticks_per_turn, "a number that is not 0")
+        if self.bits is not None and not 2 <= self.bits <= MOST_BITS:
+            raise InvalidValue("bits", self.bits, f"2 to {MOST_BITS}")
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The time, then the wheels."""
+        return ("t", *self.base.names)
+
+    @property
+    def between(self) -> bool:  # type: ignore[override]
+        """Whether the counts are totals."""
+        return not self.since_last
+
+    @property
+    def allowed(self) -> str:  # type: ignore[override]
+        """Whole numbers within the counters."""
+        return "a whole count of at most 2^53" if self.bits is None else f"a whole count of {self.bits} bits"
+
+    def displacements(self, values: np.ndarray, dt: Any) -> Displacement:  # noqa: ARG002
+        """The base's displacement by the counts, whenever they were made."""
+        counts = values[1:] if self.since_last else np.diff(values, axis=0)
+        if self.bits is not None:
+            half = 2.0 ** (self.bits - 1)
+            counts = (counts + half) % (2.0 * half) - half
+        return self.base.displacement(counts * (tau / self.ticks_per_turn))
+
+    def wrong(self, values: np.ndarray) -> np.ndarray:
+        """Counts that are not whole, or beyond what counters of these bits hold."""
+        most = MOST_COUNT if self.bits is None else 2.0**self.bits
+        wrong: np.ndarray = (values != np.rint(values)) | (np.abs(values) > most)
+        return wrong
+
+
+class Piece(NamedTuple):
+    """Some rows of a log as a path.
+
+    Attributes:
+        times: Of the rows [s]; None where the log has none.
+        poses: At the rows.
+        covariances: At the rows, (n, 3, 3); None without noise.
+        ticks: The displacements that lead to them.
+        onward: The reckoning after them.
+    """
+
+    times: np.ndarray | None
+    poses: Pose
+    covariances: np.ndarray | None
+    ticks: Displacement
+    onward: Reckoning
+
+
+def reckon(
+    rows: Iterable[Rows], measured: Measured, reckoning: Reckoning | None = None, *, name: str = "log",
+    equal_times: bool = False,
+) -> Iterator[Piece]:  # fmt: skip
+    """The path along the rows of a log, one pose for each row: the start for the first one, unless it counts by itself.
+
+    Args:
+        rows: In the columns of ``measured``, some at a time; of any number in all.
+        measured: What they are.
+        reckoning: Where it begins, how, and how sure it is.
+        name: What an error calls the log.
+        equal_times: Whether a time may be that of the row before.
+
+    Raises:
+        InvalidValue: Naming the line at which time does not go on, or that holds what cannot have been measured.
+    """
+    onward, before = reckoning or Reckoning(), None
+    for piece in rows:
+        timed = piece.values.shape[1] == len(measured.names)
+        _check_values(piece, measured, timed, name)
+        joined = _joined(before, piece.values, measured)
+        times = joined[:, 0] if timed else None
+        if timed:
+            _check_times(before, piece, equal_times, name)
+        ticks = measured.displacements(joined[:, int(timed) :], None if times is None else np.diff(times))
+        stretch = onward.follow(Odometry(ticks))
+        onward, first = stretch.onward, len(joined) - len(piece.values)
+        yield Piece(
+            None if times is None else times[first:],
+            stretch.poses[first:],
+            None if stretch.covariances is None else stretch.covariances[first:],
+            ticks,
+            onward,
+        )
+        before = piece.values[-1:]
+
+
+def _joined(before: np.ndarray | None, values: np.ndarray, measured: Measured) -> np.ndarray:
+    """The rows after the last one of the piece before; what counts by itself has some row before the first too."""
+    if before is None:
+        return values if measured.between else np.concatenate((values[:1], values))
+    return np.concatenate((before, values))
+
+
+def _check_times(before: np.ndarray | None, piece: Rows, equal: bool, name: str) -> None:
+    times = piece.values[:, 0] if before is None else np.concatenate((before[:, 0], piece.values[:, 0]))
+    steps = np.diff(times)
+    wrong = steps < 0.0 if equal else steps <= 0.0
+    if wrong.any():
+        i = int(np.argmax(wrong))
+        line = piece.lines[i - len(times) + len(piece.lines) + 1]
+        needed = f"a time {'of at least' if equal else 'after'} {times[i]:.17g}, that of the row before"
+        remedy = "" if equal or steps[i] < 0.0 else "rows of equal times can be accepted"
+        raise InvalidValue(f"t in line {line} of {name}", float(times[i + 1]), needed, remedy)
+
+
+def _check_values(piece: Rows, measured: Measured, timed: bool, name: str) -> None:
+    wrong = measured.wrong(piece.values[:, int(timed) :])
+    if wrong.any():
+        i, j = np.argwhere(wrong)[0]
+        where = f"{measured.names[int(j) + 1]} in line {piece.lines[i]} of {name}"
+        raise InvalidValue(where, float(piece.values[i, int(j) + int(timed)]), measured.allowed)
