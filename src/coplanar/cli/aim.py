@@ -24,7 +24,10 @@ def aim(
     start: Annotated[tuple[str, str], typer.Option(metavar="X Y", help="Where it is launched.")] = ("0", "0"),
     as_json: Json = False,
 ) -> None:
-    """The launch through a target by speed, angle or time, or of least speed; out of range: how far, and exit code 1.
+    """The launch that sends a projectile through a target.
+
+    For a speed both arcs, for an angle the speed, for a time the velocity; for none of them the least speed. Out of
+    range, it says how far short and what speed would do, and the exit code is 1.
 
     Example: coplanar aim --target 30 2 --speed "30 m/s" --drag 0.02
     """

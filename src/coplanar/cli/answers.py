@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from coplanar.cli.conduct import NO
+from coplanar.cli.conduct import NO, until_closed
+from coplanar.cli.console import console
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
-
-WIDE = 10_000  # [characters] of a line in a pipe: nothing is broken
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,20 +56,13 @@ class Answer:
 
 def give(answer: Answer, as_json: bool) -> None:
     """Write the answer to stdout, and exit with 1 if it is a no."""
-    if as_json:
-        typer.echo(json.dumps(answer.document(), allow_nan=False))
-    else:
-        _print(answer, console())
+    with until_closed():
+        if as_json:
+            typer.echo(json.dumps(answer.document(), allow_nan=False))
+        else:
+            _print(answer, console())
     if not answer.ok:
         raise typer.Exit(NO)
-
-
-def console(*, stderr: bool = False) -> Console:
-    """Where text goes: coloured and fitted to a terminal (NO_COLOR holds), plain and unbroken in a pipe."""
-    from rich.console import Console
-
-    made = Console(stderr=stderr, markup=False, highlight=False, emoji=False, soft_wrap=True)
-    return made if made.is_terminal else Console(stderr=stderr, markup=False, highlight=False, emoji=False, width=WIDE)
 
 
 def plain(value: Any) -> Any:
@@ -139,4 +131,6 @@ def _text(value: Any) -> str:
         return {True: "yes", False: "no", None: "-"}[value]
     if isinstance(value, list | tuple):
         return "  ".join(_text(entry) for entry in value)
-    return f"{value + 0.0:.6g}" if isinstance(value, float) else str(value)
+    if isinstance(value, float):
+        return "-" if math.isnan(value) else f"{value + 0.0:.6g}"
+    return str(value)

@@ -55,7 +55,7 @@ def fk(
     tool: Tool = ("0", "0", "0"),
     as_json: Json = False,
 ) -> None:
-    """Where an arm is: pose of the tool, points, Jacobian, velocity ellipse.
+    """Where an arm is: pose of its tool, points, Jacobian, ellipse.
 
     Example: coplanar fk --links 0.4 0.3 --q "30 deg" -0.5
     """
@@ -93,7 +93,9 @@ def ik(
     tool: Tool = ("0", "0", "0"),
     as_json: Json = False,
 ) -> None:
-    """Joints that bring the tool to a target, every branch; or the nearest point, and exit code 1.
+    """Joints that bring the tool of an arm to a target.
+
+    Every branch is said; out of reach, the nearest point and the gap, and the exit code is 1.
 
     Example: coplanar ik --links 0.4 0.3 --target -0.3 0.4 --elbow negative
     """

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from enum import StrEnum
+from itertools import islice
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coplanar.cli.arguments import quantities, quantity
@@ -111,12 +113,23 @@ def listed(base: WheeledBase) -> list[dict[str, Any]]:
 def _table(sizes: Sizes) -> list[Wheel]:
     rows = [("--wheel", text) for text in sizes.wheel or ()]
     if sizes.file is not None:
-        with open(sizes.file, encoding="utf-8", errors="backslashreplace") as lines:
-            texts = ((f"line {i} of {sizes.file}", line.partition("#")[0].strip()) for i, line in enumerate(lines, 1))
-            rows += [row for row, _ in zip(((n, t) for n, t in texts if t), range(MOST_WHEELS + 1), strict=False)]
+        rows += islice(_lines_of(sizes.file), MOST_WHEELS + 1)
     if not rows or len(rows) > MOST_WHEELS:
         raise InvalidValue("wheels", f"{len(rows)}", f"1 to {MOST_WHEELS} of them", "give --wheel or --file")
     return [_wheel(*row) for row in rows]
+
+
+def _lines_of(file: str) -> Iterator[tuple[str, str]]:
+    """Where each wheel of a file stands, and its text."""
+    from coplanar.cli.streams import source
+    from coplanar.logs.lines import whole_lines
+
+    with source(file) as (read, name):
+        for block in whole_lines(read, name):
+            for line, text in enumerate(block.text.decode("utf-8", "backslashreplace").split("\n"), block.first):
+                row = text.partition("#")[0].strip()
+                if row:
+                    yield f"line {line} of {name}", row
 
 
 def _wheel(name: str, text: str) -> Wheel:

@@ -53,12 +53,12 @@ class Commands(TyperGroup):
 def _made(name: str) -> Any:
     """The command behind a name."""
     function: Callable[..., None] = getattr(importlib.import_module(f"coplanar.cli.{COMMANDS[name]}"), name)
-    alone = typer.Typer(add_completion=False)
+    alone = typer.Typer(add_completion=False, rich_markup_mode=None)
     alone.command(name, cls=ListsOfNumbers)(conducted(function))
     return typer.main.get_command(alone)
 
 
-app = typer.Typer(cls=Commands, no_args_is_help=True, pretty_exceptions_enable=False)
+app = typer.Typer(cls=Commands, no_args_is_help=True, pretty_exceptions_enable=False, rich_markup_mode=None)
 
 
 def _version(wanted: bool) -> None:

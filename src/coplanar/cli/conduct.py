@@ -5,14 +5,16 @@ from __future__ import annotations
 import functools
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import typer
 
+from coplanar.cli.console import console
 from coplanar.errors import CoplanarError, NoSolution
 
-DONE, NO, UNUSABLE, INTERRUPTED = 0, 1, 2, 130
+NO, UNUSABLE, INTERRUPTED = 1, 2, 130
 
 
 def conducted(command: Callable[..., None]) -> Callable[..., None]:
@@ -23,15 +25,12 @@ def conducted(command: Callable[..., None]) -> Callable[..., None]:
         if hasattr(sys.stdout, "reconfigure"):
             sys.stdout.reconfigure(errors="backslashreplace")  # what the terminal has no letters for
         try:
-            command(*args, **kwargs)
-            sys.stdout.flush()
+            with until_closed():
+                command(*args, **kwargs)
         except NoSolution as error:
             raise _exit(NO, error) from None
         except CoplanarError as error:
             raise _exit(UNUSABLE, error) from None
-        except BrokenPipeError:  # the reader has what it wanted: | head
-            _abandon_output()
-            raise typer.Exit(DONE) from None
         except OSError as error:
             where = f"{error.filename}: " if error.filename else ""
             raise _exit(UNUSABLE, f"{where}{error.strerror or error}") from None
@@ -43,10 +42,18 @@ def conducted(command: Callable[..., None]) -> Callable[..., None]:
     return run
 
 
-def _exit(code: int, error: object) -> typer.Exit:
-    from rich.console import Console
+@contextmanager
+def until_closed() -> Iterator[None]:
+    """Write until the block ends or the reader of a pipe has what it wanted, as in ``| head``; nothing is left over."""
+    try:
+        yield
+        sys.stdout.flush()
+    except BrokenPipeError:
+        _abandon_output()
 
-    Console(stderr=True, soft_wrap=True).print(f"error: {error}", style="red", markup=False, highlight=False)
+
+def _exit(code: int, error: object) -> typer.Exit:
+    console(stderr=True).print(f"error: {error}", style="red")
     return typer.Exit(code)
 
 

@@ -32,7 +32,10 @@ LIBRARIES = (
 
 
 def doctor(as_json: Json = False) -> None:
-    """What there is to work with: versions, compiler, cache, extras; exit code 1 if something needed is missing."""
+    """What there is to work with on this machine.
+
+    Versions, processors, compiler and its cache, extras; the exit code is 1 if something needed is missing.
+    """
     import platform
 
     from coplanar import __version__

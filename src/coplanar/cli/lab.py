@@ -1,103 +1,84 @@
-"""Integrators side by side on an arc, whose exact end is known."""
+"""Integrators side by side on a motion whose exact end is known."""
 
 from __future__ import annotations
 
-from math import ceil, log2
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from coplanar.cli.answers import Answer, Fact, give
 from coplanar.cli.arguments import Json, quantity
+from coplanar.errors import InvalidValue
 
 if TYPE_CHECKING:
-    import numpy as np
+    from coplanar.motion import Comparison, Segment
 
-SHOWN = {"euler": "Euler", "midpoint": "RK2 (midpoint)", "heun": "RK2 (Heun)", "rk4": "RK4", "exact": "exact arcs"}
-MOST_STEPS = 1_000_000
+SHOWN = {"euler": "Euler", "midpoint": "RK2 (midpoint)", "heun": "RK2 (Heun)", "rk4": "RK4"}
 
 
 def lab(
     v: Annotated[str, typer.Option("--v", metavar="V", help="Forward velocity.")] = "1 m/s",
     omega: Annotated[str, typer.Option("--omega", metavar="W", help="Turn rate.")] = "1 rad/s",
+    a: Annotated[str, typer.Option("--a", metavar="A", help="Forward acceleration.")] = "0 m/s^2",
+    alpha: Annotated[str, typer.Option("--alpha", metavar="A", help="Turn acceleration.")] = "0 rad/s^2",
     duration: Annotated[str, typer.Option(metavar="T", help="How long.")] = "10 s",
     step: Annotated[str, typer.Option(metavar="H", help="Step of the integrators.")] = "0.1 s",
     within: Annotated[str, typer.Option(metavar="E", help="Error that the largest step may make.")] = "1 mm",
     as_json: Json = False,
 ) -> None:
-    """Euler, RK2, RK4 and exact arcs side by side: error, order, and the largest step for a millimetre.
+    """Integrators side by side: error, order, largest step.
+
+    Euler, two RK2 and RK4 with one step, and with half of it, along a motion of constant accelerations.
 
     Example: coplanar lab --v 1 --omega "90 deg/s" --step "50 ms"
     """
-    from coplanar.checks import positive
-    from coplanar.errors import InvalidValue
+    from coplanar.motion import Comparison, Program, Segment
     from coplanar.scenarios import quantities as dimensions
+    from coplanar.se2 import Pose
 
-    speed, rate = quantity("v", v, dimensions.SPEED), quantity("omega", omega, dimensions.TURN_RATE)
-    time = positive("duration", quantity("duration", duration, dimensions.TIME))
-    size = positive("step", quantity("step", step, dimensions.TIME))
-    allowed = positive("within", quantity("within", within, dimensions.LENGTH))
-    if time / size > MOST_STEPS:
-        raise InvalidValue("step", size, f"at least {time / MOST_STEPS:g} s: {MOST_STEPS:,} steps are the most")
-    course = speed * time, rate * time
-    count = max(1, round(time / size))
-    rows = [_row(method, course, count, allowed, time) for method in SHOWN]
+    time, size = (quantity(n, text, dimensions.TIME) for n, text in (("duration", duration), ("step", step)))
+    if not 0.0 < size <= time:
+        raise InvalidValue("step", size, f"a time of more than 0, and at most the duration {time:g} s")
+    motion = Segment(
+        quantity("v", v, dimensions.SPEED), quantity("omega", omega, dimensions.TURN_RATE),
+        a=quantity("a", a, dimensions.ACCELERATION), alpha=quantity("alpha", alpha, dimensions.TURN_ACCELERATION),
+        duration=time,
+    )  # fmt: skip
+    allowed = quantity("within", within, dimensions.LENGTH)
+    compared = Comparison(Program([motion]), Pose(), tuple(SHOWN), (size, 0.5 * size))
+    give(_answer(compared, motion, allowed), as_json)
+
+
+def _answer(compared: Comparison, motion: Segment, allowed: float) -> Answer:
+    """One row for each method, and the exact end."""
+    size, end = float(compared.steps[0]), motion.end(compared.start)
     facts = (
-        Fact("steps", count),
-        Fact("step", time / count, "s"),
-        Fact("distance", course[0], "m"),
-        Fact("turn", course[1], "rad"),
-        Fact("largest error allowed", allowed, "m"),
-        Fact("methods", rows),
+        Fact("step", size, "s"),
+        Fact("exact end", [end.x, end.y], "m"),
+        Fact("exact heading", end.theta, "rad"),
+        Fact("error allowed", allowed, "m"),
+        Fact("methods", _rows(compared, allowed), "m, s"),
     )
-    give(Answer(f"{count} steps along an arc of {course[0]:.6g} m that turns by {course[1]:.6g} rad", facts), as_json)
+    return Answer(f"{motion.duration:g} s in steps of {size:g} s, against the exact motion", facts)
 
 
-def _row(method: str, course: tuple[float, float], count: int, allowed: float, time: float) -> dict[str, Any]:
-    """What one method makes of the arc."""
-    errors = _errors(method, course, count)
-    sizes = float(errors.max()), float(_errors(method, course, 2 * count).max())
-    rounding = 1e-13 * (1.0 + abs(course[0]))  # [m] below this there is no order to see
-    steps = _fewest(method, course, allowed)
-    return {
-        "method": SHOWN[method],
-        "error at end": float(errors[-1]),
-        "largest error": sizes[0],
-        "order": log2(sizes[0] / sizes[1]) if min(sizes) > rounding else None,
-        "largest step": time / steps if steps else None,
-        "steps needed": steps,
-    }
+def _rows(compared: Comparison, allowed: float) -> list[dict[str, Any]]:
+    from coplanar.cli.progress import progress
 
-
-def _errors(method: str, course: tuple[float, float], count: int) -> np.ndarray:
-    """How far each pose of a path of so many steps is from the arc [m]."""
-    import numpy as np
-
-    from coplanar.motion import Odometry
-    from coplanar.se2 import Displacement, Pose
-
-    distance, turn = course
-    ticks = Odometry(Displacement(np.full(count, distance / count), 0.0, np.full(count, turn / count)))
-    done = np.arange(count + 1) / count
-    arc = Pose.exp(Displacement(distance * done, 0.0, turn * done))
-    gap = ticks.path(Pose(), method=method).position - arc.position
-    apart: np.ndarray = np.hypot(gap[:, 0], gap[:, 1])
-    return apart
-
-
-def _fewest(method: str, course: tuple[float, float], allowed: float) -> int | None:
-    """The fewest steps whose largest error is allowed; None where not even the most are enough."""
-
-    def fits(count: int) -> bool:
-        return float(_errors(method, course, count).max()) <= allowed
-
-    enough = max(1, ceil(abs(course[1])))  # a step that turns by more may be right by chance
-    while not fits(enough):
-        enough *= 2
-        if enough > MOST_STEPS:
-            return None
-    short = enough // 2 if enough > abs(course[1]) + 1.0 else 0
-    while enough - short > 1:
-        middle = (enough + short) // 2
-        short, enough = (short, middle) if fits(middle) else (middle, enough)
-    return enough
+    errors, rows = compared.errors(), []
+    orders = compared.orders(errors)
+    with progress() as step:
+        for i, method in enumerate(compared.methods):
+            step(SHOWN[method], i, len(SHOWN))
+            largest = compared.largest_step(method, allowed)
+            rows.append(
+                {
+                    "method": SHOWN[method],
+                    "largest error": float(errors[i, 0]),
+                    "with half the step": float(errors[i, 1]),
+                    "order": float(orders[i]),
+                    "largest step": largest or None,
+                }
+            )
+    exact = {"method": "exact", "largest error": 0.0, "with half the step": 0.0, "order": None}
+    return [*rows, exact | {"largest step": compared.program.duration}]

@@ -63,11 +63,15 @@ def odometry(
     ] = None,
     equal_times: Annotated[bool, typer.Option("--equal-times", help="A time may be that of the row before.")] = False,
     every: Annotated[int, typer.Option(metavar="N", help="Write each Nth pose, and the last one.", min=1)] = 1,
-    decimals: Annotated[int | None, typer.Option(help="Write so many.  [all digits]", min=0, max=17)] = None,
+    decimals: Annotated[
+        int | None, typer.Option(help="Digits after the point.  [all there are]", min=0, max=17)
+    ] = None,
     output: Annotated[str | None, typer.Option("--output", "-o", metavar="FILE", help="Write poses here.")] = None,
     as_json: Json = False,
 ) -> None:
-    """Poses from wheel counts, wheel rates or velocities over time: CSV to stdout, or to FILE whole or not at all.
+    """Poses from wheel counts, wheel rates or velocities.
+
+    They go to stdout as CSV, one for each row as it comes, or to FILE, whole or not at all.
 
     Rows are comma, semicolon, space or tab separated, with # comments, with or without a header, gzipped or not.
     With -o or --json a summary is said. A bad value is an error that names its line; what a pipe has got it keeps.
@@ -78,10 +82,11 @@ def odometry(
 
     measured = _measured(kind, track, radius, ticks, bits, since_last)
     reckoning = _reckoning(start, method, covariance)
+    target = None if output == "-" else output
     with source(log) as (read, name):
         pieces = _pieces(read, name, measured, reckoning, columns, equal_times)
-        tally = poses_to(None if as_json and output is None else output or "-", pieces, every, decimals)
-    if output is not None or as_json:
+        tally = poses_to(target if as_json or target else "-", pieces, every, decimals)
+    if target or as_json:
         give(_summary(tally), as_json)
 
 

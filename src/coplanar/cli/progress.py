@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+from coplanar.cli.console import console
+
 Step = Callable[[str, float, float | None], None]
 
 
@@ -15,8 +17,6 @@ def progress(unit: str = "") -> Iterator[Step]:
     Args:
         unit: Of what is counted; empty for steps.
     """
-    from coplanar.cli.answers import console
-
     errors = console(stderr=True)
     if not errors.is_terminal:
         yield lambda _what, _done, _total: None

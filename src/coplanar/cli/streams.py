@@ -6,8 +6,8 @@ import os
 import secrets
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import BinaryIO
 
@@ -42,7 +42,7 @@ class Tally:
     rows: int = 0
     began: float | None = None
     ended: float | None = None
-    pose: Pose = Pose()
+    pose: Pose = field(default_factory=Pose)
     covariance: np.ndarray | None = None
     distance: float = 0.0
     turn: float = 0.0
@@ -77,11 +77,13 @@ def source(log: str) -> Iterator[tuple[Reader, str]]:
         buffer = sys.stdin.buffer
         yield getattr(buffer, "read1", buffer.read), "stdin"
         return
-    try:
-        file = open(log, "rb", buffering=0)
-    except (OSError, ValueError) as error:
-        raise InvalidValue("log", log, f"a file that can be read ({getattr(error, 'strerror', error)})") from None
-    with file:
+    with ExitStack() as stack:
+        try:
+            file = stack.enter_context(open(log, "rb", buffering=0))
+            file.read(0)
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or error
+            raise InvalidValue("log", log, f"a file that can be read ({reason})") from None
         yield file.read, log
 
 
@@ -101,7 +103,7 @@ def poses_to(target: str | None, pieces: Iterable[Piece], every: int, decimals: 
         out = sys.stdout.buffer
         _written(pieces, tally, every, decimals, lambda text: (out.write(text), out.flush()))
     else:
-        with _whole(Path(target)) as file:
+        with _whole(target) as file:
             _written(pieces, tally, every, decimals, file.write)
         tally.file = target
     return tally
@@ -144,8 +146,15 @@ def _text(table: np.ndarray, decimals: int | None) -> bytes:
 
 
 @contextmanager
-def _whole(path: Path) -> Iterator[BinaryIO]:
-    """A file beside ``path`` that takes its place when the block has ended well, and is gone otherwise."""
+def _whole(target: str) -> Iterator[BinaryIO]:
+    """A file beside the target that takes its place when the block has ended well, and is gone otherwise."""
+    path = Path(target)
+    if not path.name or "\0" in target:
+        raise InvalidValue("output", target, "a file that can be written")
+    if path.exists() and not path.is_file():  # a device or a named pipe is written to as it is
+        with path.open("wb") as device:
+            yield device
+        return
     part = path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
     try:
         with part.open("xb") as file:

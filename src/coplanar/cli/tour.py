@@ -7,15 +7,18 @@ from typing import Annotated
 
 import typer
 
-from coplanar.cli.answers import console
 from coplanar.cli.conduct import NO
+from coplanar.cli.console import console
 from coplanar.cli.progress import progress
 
 
 def tour(
     output: Annotated[str, typer.Option("--output", "-o", metavar="DIR", help="Folder to write.")] = "tour",
 ) -> None:
-    """Run every system on its demonstration; write tables, figures and DIR/index.html."""
+    """Run every system on its demonstration, with figures.
+
+    Writes tables, figures, animations and DIR/index.html, which opens from disk.
+    """
     from rich.table import Table
     from rich.text import Text
 

@@ -47,7 +47,10 @@ def wheels(
     ] = None,
     as_json: Json = False,
 ) -> None:
-    """What a base on wheels does, cannot do, and how it is wired; exit code 1 for a twist that it cannot make.
+    """What a base on wheels does, and what it cannot do.
+
+    Rates for a twist, the twist of rates, and which motor turns which wheel. For a twist that the base cannot make it
+    says the nearest one, and the exit code is 1, as it is for motors that are wired wrongly.
 
     Example: coplanar wheels differential --track 0.5 --radius 0.1 --twist 0.5 0 "30 deg/s"
     """

@@ -202,7 +202,9 @@ def reckon(
         if timed:
             _check_times(before, piece, equal_times, name)
         ticks = measured.displacements(joined[:, int(timed) :], None if times is None else np.diff(times))
-        stretch = onward.follow(Odometry(ticks))
+        with np.errstate(over="ignore", invalid="ignore"):
+            stretch = onward.follow(Odometry(ticks))
+        _check_path(stretch.onward, piece, name)
         onward, first = stretch.onward, len(joined) - len(piece.values)
         yield Piece(
             None if times is None else times[first:],
@@ -219,6 +221,13 @@ def _joined(before: np.ndarray | None, values: np.ndarray, measured: Measured) -
     if before is None:
         return values if measured.between else np.concatenate((values[:1], values))
     return np.concatenate((before, values))
+
+
+def _check_path(onward: Reckoning, piece: Rows, name: str) -> None:
+    """Refuse what no robot drives: sums keep what is not a number, so the last one tells."""
+    if not np.isfinite(onward.pose.as_array()).all():
+        where = f"lines {piece.lines[0]} to {piece.lines[-1]} of {name}"
+        raise InvalidValue(where, "a path that leaves the finite numbers", "values that a robot can drive")
 
 
 def _check_times(before: np.ndarray | None, piece: Rows, equal: bool, name: str) -> None:
