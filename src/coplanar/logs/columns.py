@@ -99,18 +99,27 @@ def read_columns(read: Reader, wanted: Wanted, name: str) -> Iterator[Rows]:
                 continue
         if clean.first <= layout.header:
             clean = _without_header(clean, layout.header)
-        rows = parse(clean, layout)
+        rows, fault = parse(clean, layout)
         count += len(rows.lines)
         for begin in range(0, len(rows.lines), MOST):
             yield Rows(rows.values[begin : begin + MOST], rows.lines[begin : begin + MOST])
+        if fault is not None:
+            raise fault
     if not count:
         raise InvalidValue(name, "no row of numbers", "one row or more")
 
 
-def parse(block: Lines, layout: Layout) -> Rows:
-    """The rows of a block: by vector code where every cell is a number, otherwise cell by cell."""
-    rows = _at_once(block, layout)
-    return _checked(rows if rows is not None else _cell_by_cell(block, layout), layout)
+def parse(block: Lines, layout: Layout) -> tuple[Rows, InvalidValue | None]:
+    """The rows of a block up to the first that is wrong, and what is; by vector code where all cells are numbers."""
+    rows, fault = _at_once(block, layout), None
+    if rows is None:
+        rows, fault = _cell_by_cell(block, layout)
+    finite = np.isfinite(rows.values)
+    if finite.all():
+        return rows, fault
+    i, j = np.argwhere(~finite)[0]
+    where = f"{layout.names[j]} in line {rows.lines[i]} of {layout.name}"
+    return Rows(rows.values[:i], rows.lines[:i]), InvalidValue(where, float(rows.values[i, j]), "a finite number")
 
 
 def _at_once(block: Lines, layout: Layout) -> Rows | None:
@@ -152,21 +161,34 @@ def _alternates(text: bytes, starts: np.ndarray, layout: Layout) -> bool:
     return bool(np.all((cells[:, :-1] < between) & (between < cells[:, 1:])))
 
 
-def _cell_by_cell(block: Lines, layout: Layout) -> Rows:
+def _cell_by_cell(block: Lines, layout: Layout) -> tuple[Rows, InvalidValue | None]:
     """The columns that are read, whatever the others hold."""
-    values, lines = [], []
+    values, lines, fault = list[list[float]](), list[int](), None
     for line, text in enumerate(block.text.split(b"\n")[:-1], block.first):
         row = _decoded(text).strip()
-        if not row:
-            continue
-        cells = _cells(row, layout.separator)
-        if len(cells) != layout.width:
-            needed = f"{layout.width} cells, as in line {layout.first}"
-            raise InvalidValue(f"line {line} of {layout.name}", row, needed, f"it has {len(cells)}")
-        places = zip(layout.places, layout.names, strict=True)
-        values.append([_number(cells[i], line, column, layout) for i, column in places])
-        lines.append(line)
-    return Rows(np.array(values).reshape(-1, len(layout.places)), np.array(lines, dtype=np.int64))
+        if row:
+            try:
+                values.append(_row(row, line, layout))
+            except InvalidValue as error:
+                fault = error
+                break
+            lines.append(line)
+    table = np.array(values).reshape(-1, len(layout.places))
+    return Rows(table, np.array(lines, dtype=np.int64)), fault
+
+
+def _row(row: str, line: int, layout: Layout) -> list[float]:
+    """The numbers of one row.
+
+    Raises:
+        InvalidValue: Naming the line, and the column or how many cells there should be.
+    """
+    cells = _cells(row, layout.separator)
+    if len(cells) != layout.width:
+        needed = f"{layout.width} cells, as in line {layout.first}"
+        raise InvalidValue(f"line {line} of {layout.name}", row, needed, f"it has {len(cells)}")
+    columns = zip(layout.places, layout.names, strict=True)
+    return [_number(cells[i], line, column, layout) for i, column in columns]
 
 
 def _number(cell: str, line: int, column: str, layout: Layout) -> float:
@@ -178,16 +200,6 @@ def _number(cell: str, line: int, column: str, layout: Layout) -> float:
         comma = layout.separator != "," and "," in cell
         remedy = "write a decimal point" if comma else ""
         raise InvalidValue(f"{column} in line {line} of {layout.name}", cell, "a number", remedy) from None
-
-
-def _checked(rows: Rows, layout: Layout) -> Rows:
-    """The rows if all of them are finite."""
-    finite = np.isfinite(rows.values)
-    if not finite.all():
-        i, j = np.argwhere(~finite)[0]
-        where = f"{layout.names[j]} in line {rows.lines[i]} of {layout.name}"
-        raise InvalidValue(where, float(rows.values[i, j]), "a finite number")
-    return rows
 
 
 def layout_of(block: Lines, wanted: Wanted, name: str) -> Layout | None:

@@ -176,6 +176,12 @@ class Piece(NamedTuple):
     ticks: Displacement
     onward: Reckoning
 
+    def first(self, count: int) -> Piece:
+        """The poses of the first rows."""
+        times = None if self.times is None else self.times[:count]
+        covariances = None if self.covariances is None else self.covariances[:count]
+        return self._replace(times=times, poses=self.poses[:count], covariances=covariances)
+
 
 def reckon(
     rows: Iterable[Rows], measured: Measured, reckoning: Reckoning | None = None, *, name: str = "log",
@@ -196,55 +202,64 @@ def reckon(
     onward, before = reckoning or Reckoning(), None
     for piece in rows:
         timed = piece.values.shape[1] == len(measured.names)
-        _check_values(piece, measured, timed, name)
-        joined = _joined(before, piece.values, measured)
-        times = joined[:, 0] if timed else None
-        if timed:
-            _check_times(before, piece, equal_times, name)
-        ticks = measured.displacements(joined[:, int(timed) :], None if times is None else np.diff(times))
-        with np.errstate(over="ignore", invalid="ignore"):
-            stretch = onward.follow(Odometry(ticks))
-        _check_path(stretch.onward, piece, name)
-        onward, first = stretch.onward, len(joined) - len(piece.values)
-        yield Piece(
-            None if times is None else times[first:],
-            stretch.poses[first:],
-            None if stretch.covariances is None else stretch.covariances[first:],
-            ticks,
-            onward,
-        )
-        before = piece.values[-1:]
+        good, fault = _measurable(before, piece, measured, timed, equal_times, name)
+        if len(good.lines):
+            path = _along(before, good, measured, timed, onward)
+            count, lost = _on_the_plane(path, good, name)
+            yield path if lost is None else path.first(count)
+            onward, before, fault = path.onward, good.values[-1:], lost or fault
+        if fault is not None:
+            raise fault
 
 
-def _joined(before: np.ndarray | None, values: np.ndarray, measured: Measured) -> np.ndarray:
-    """The rows after the last one of the piece before; what counts by itself has some row before the first too."""
-    if before is None:
-        return values if measured.between else np.concatenate((values[:1], values))
-    return np.concatenate((before, values))
+def _along(before: np.ndarray | None, piece: Rows, measured: Measured, timed: bool, reckoning: Reckoning) -> Piece:
+    """The path along some rows, after the last one of the piece before."""
+    if before is not None:
+        values = np.concatenate((before, piece.values))
+    elif measured.between:
+        values = piece.values
+    else:  # what counts by itself has some row before the first too
+        values = np.concatenate((piece.values[:1], piece.values))
+    times, new = values[:, 0] if timed else None, len(values) - len(piece.values)
+    with np.errstate(over="ignore", invalid="ignore"):
+        ticks = measured.displacements(values[:, int(timed) :], None if times is None else np.diff(times))
+        stretch = reckoning.follow(Odometry(ticks))
+    covariances = None if stretch.covariances is None else stretch.covariances[new:]
+    return Piece(None if times is None else times[new:], stretch.poses[new:], covariances, ticks, stretch.onward)
 
 
-def _check_path(onward: Reckoning, piece: Rows, name: str) -> None:
-    """Refuse what no robot drives: sums keep what is not a number, so the last one tells."""
-    if not np.isfinite(onward.pose.as_array()).all():
-        where = f"lines {piece.lines[0]} to {piece.lines[-1]} of {name}"
-        raise InvalidValue(where, "a path that leaves the finite numbers", "values that a robot can drive")
-
-
-def _check_times(before: np.ndarray | None, piece: Rows, equal: bool, name: str) -> None:
-    times = piece.values[:, 0] if before is None else np.concatenate((before[:, 0], piece.values[:, 0]))
-    steps = np.diff(times)
-    wrong = steps < 0.0 if equal else steps <= 0.0
-    if wrong.any():
-        i = int(np.argmax(wrong))
-        line = piece.lines[i - len(times) + len(piece.lines) + 1]
-        needed = f"a time {'of at least' if equal else 'after'} {times[i]:.17g}, that of the row before"
-        remedy = "" if equal or steps[i] < 0.0 else "rows of equal times can be accepted"
-        raise InvalidValue(f"t in line {line} of {name}", float(times[i + 1]), needed, remedy)
-
-
-def _check_values(piece: Rows, measured: Measured, timed: bool, name: str) -> None:
+def _measurable(
+    before: np.ndarray | None, piece: Rows, measured: Measured, timed: bool, equal: bool, name: str
+) -> tuple[Rows, InvalidValue | None]:
+    """The rows up to the first whose time does not go on or that cannot have been measured, and what is wrong."""
     wrong = measured.wrong(piece.values[:, int(timed) :])
-    if wrong.any():
-        i, j = np.argwhere(wrong)[0]
-        where = f"{measured.names[int(j) + 1]} in line {piece.lines[i]} of {name}"
-        raise InvalidValue(where, float(piece.values[i, int(j) + int(timed)]), measured.allowed)
+    late = np.zeros(len(piece.lines), dtype=bool)
+    if timed:
+        times = piece.values[:, 0] if before is None else np.concatenate((before[:, 0], piece.values[:, 0]))
+        steps = np.diff(times)
+        late[len(late) - len(steps) :] = steps < 0.0 if equal else steps <= 0.0
+    bad = late | wrong.any(axis=1)
+    if not bad.any():
+        return piece, None
+    i = int(np.argmax(bad))
+    line = f"line {piece.lines[i]} of {name}"
+    if late[i]:
+        now, last = piece.values[i, 0], times[i + len(times) - len(late) - 1]
+        needed = f"a time {'of at least' if equal else 'after'} {last:.17g}, that of the row before"
+        remedy = "rows of equal times can be accepted" if now == last else ""
+        fault = InvalidValue(f"t in {line}", float(now), needed, remedy)
+    else:
+        j = int(np.argmax(wrong[i]))
+        column = measured.names[j + 1]
+        fault = InvalidValue(f"{column} in {line}", float(piece.values[i, j + int(timed)]), measured.allowed)
+    return Rows(piece.values[:i], piece.lines[:i]), fault
+
+
+def _on_the_plane(path: Piece, piece: Rows, name: str) -> tuple[int, InvalidValue | None]:
+    """How many of the poses are finite, and where the first is that is not."""
+    finite = np.isfinite(path.poses.as_array()).all(axis=1)
+    if finite.all():
+        return len(finite), None
+    i = int(np.argmin(finite))
+    pose = tuple(path.poses[i].as_array().tolist())
+    return i, InvalidValue(f"path at line {piece.lines[i]} of {name}", pose, "finite numbers: no robot is that fast")
