@@ -154,8 +154,10 @@ class Encoders(Measured):
 
     def wrong(self, values: np.ndarray) -> np.ndarray:
         """Counts that are not whole, or beyond what counters of these bits hold."""
-        most = MOST_COUNT if self.bits is None else 2.0**self.bits
-        wrong: np.ndarray = (values != np.rint(values)) | (np.abs(values) > most)
+        low, high = (
+            (-MOST_COUNT, MOST_COUNT) if self.bits is None else (-(2.0 ** (self.bits - 1)), 2.0**self.bits - 1.0)
+        )
+        wrong: np.ndarray = (values != np.rint(values)) | (values < low) | (values > high)
         return wrong
 
 
