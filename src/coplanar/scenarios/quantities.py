@@ -50,11 +50,13 @@ TURN_RATE = Dimension("a rate of turn", "rad/s", ((0, -1, 0, 1),), "90 deg/s")
 ACCELERATION = Dimension("an acceleration", "m/s^2", ((1, -2, 0, 0),), "0.5 m/s^2")
 TURN_ACCELERATION = Dimension("a turn acceleration", "rad/s^2", ((0, -2, 0, 1),), "90 deg/s^2")
 DRAG = Dimension("a drag", "kg/m", ((-1, 0, 1, 0),), "20 g/m")
+DRAG_PER_MASS = Dimension("a drag over mass", "1/m", ((-1, 0, 0, 0),), "0.02/m")
+DENSITY = Dimension("a density", "kg/m^3", ((-3, 0, 1, 0),), "1.2 kg/m^3")
 RATE = Dimension("a gain", "1/s", ((0, -1, 0, 0),), "3/s")
 RATE_SQUARED = Dimension("a gain", "1/s^2", ((0, -2, 0, 0),), "3/s^2")
 KNOWN = (
     NUMBER, LENGTH, ANGLE, TIME, MASS, AREA, SPEED, TURN_RATE, ACCELERATION, TURN_ACCELERATION, DRAG, RATE,
-    RATE_SQUARED,
+    RATE_SQUARED, DRAG_PER_MASS, DENSITY,
 )  # fmt: skip
 
 
@@ -170,6 +172,10 @@ Gravity = Annotated[float, Quantity(ACCELERATION, least=0.0)]
 TurnAcceleration = Annotated[float, Quantity(TURN_ACCELERATION)]
 PositiveTurnAcceleration = Annotated[float, Quantity(TURN_ACCELERATION, above=0.0)]
 Drag = Annotated[float, Quantity(DRAG, least=0.0)]
+DragPerMass = Annotated[float, Quantity(DRAG_PER_MASS, least=0.0)]
+Density = Annotated[float, Quantity(DENSITY, least=0.0)]
+Area = Annotated[float, Quantity(AREA, least=0.0)]
+NotNegative = Annotated[float, Quantity(NUMBER, least=0.0)]
 Gain = Annotated[float, Quantity(RATE)]
 PositiveGain = Annotated[float, Quantity(RATE, above=0.0)]
 GainPerTime = Annotated[float, Quantity(RATE_SQUARED, least=0.0)]

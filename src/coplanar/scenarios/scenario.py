@@ -88,7 +88,7 @@ class Scenario(Part):
         """Whether ``measure`` takes an array under a key, as ``controller.kp``."""
         return any(fnmatchcase(key, pattern) for pattern in self.vectorised_keys)
 
-    def _outcome(self, progress: Progress) -> Outcome:
+    def _outcome(self, progress: Progress, /) -> Outcome:
         raise NotImplementedError
 
     def _numbers(self, things: Any) -> dict[str, Any]:

@@ -11,8 +11,12 @@ import numpy as np
 
 from coplanar.arms import Arm
 from coplanar.control import PointTracker
-from coplanar.integrators import METHODS
+from coplanar.flight import Shot
+from coplanar.integrators import METHODS, integrate_ode
+from coplanar.motion import Program, Segment
 from coplanar.run import Run, RunStatus
+from coplanar.se2 import Pose, Twist
+from coplanar.wheels import WheeledBase
 
 
 def tool_of(arm: Arm, q: Any) -> np.ndarray:
@@ -50,10 +54,58 @@ def loop_error(run: Run, controller: Any, reference: Any, method: str, limits: A
     shaken = noise.draw(len(steps), ()) if noise else np.zeros((len(steps), 5))
     driven = np.stack([run["v"][1:] + shaken[:, 3], run["omega"][1:] + shaken[:, 4]], -1)
     poses = run.poses.as_array()
-    error = float(np.abs(_stepped(poses[:-1], driven, steps, method) - poses[1:]).max())
+    error = step_error(poses, driven, steps, method)
     if limits is None and noise is None and isinstance(controller, PointTracker):
         error = max(error, _command_error(run, controller, reference))
     return error
+
+
+def step_error(poses: np.ndarray, driven: np.ndarray, steps: np.ndarray, method: str) -> float:
+    """How far each pose (rows, 3) is from a step of the one before under the command that was driven [m, rad]."""
+    return float(np.abs(_stepped(poses[:-1], driven, steps, method) - poses[1:]).max())
+
+
+def program_error(program: Program, start: Pose) -> float:
+    """The largest distance of a program's knots from an adaptive integration of its pieces at 1e-12 [m]."""
+    state, error = start.as_array(), 0.0
+    tight: dict[str, Any] = {"relative_tolerance": 1e-12, "absolute_tolerance": 1e-13}
+    for piece, end in zip(program, program.poses(start).as_array()[1:], strict=True):
+        if piece.duration > 0.0:
+            state = integrate_ode(_held_rates(piece), [0.0, piece.duration], state, method="DOP853", **tight)[-1]
+        error = max(error, float(np.hypot(*(state - end)[:2])))
+    return error
+
+
+def _held_rates(piece: Segment) -> Any:
+    def rates(t: float, pose: np.ndarray) -> np.ndarray:
+        moved = (piece.v + piece.a * t) * np.exp(1j * pose[2])
+        return np.array([moved.real, moved.imag, piece.omega + piece.alpha * t])
+
+    return rates
+
+
+def wheel_error(base: WheeledBase, twist: Twist, rates: np.ndarray) -> float:
+    """How far wheel rates are from the velocities of their contacts, as complex numbers [rad/s]."""
+    apart = []
+    for wheel, rate in zip(base.wheels, rates, strict=True):
+        contact = complex(twist.vx, twist.vy) + 1j * twist.omega * complex(wheel.x, wheel.y)
+        seen = contact * np.exp(-1j * wheel.drive_angle)
+        slope = np.tan(wheel.roller_angle) if wheel.roller_angle else 0.0
+        apart.append(abs(seen.real + slope * seen.imag - wheel.radius * rate) / wheel.radius)
+    return float(max(apart))
+
+
+def flown(shot: Shot, time: np.ndarray) -> np.ndarray:
+    """Positions (n, 2) of a shot by an adaptive integration of m a = -m g - C |v| v at 1e-12 [m]."""
+    k, g = shot.projectile.drag_per_mass, shot.projectile.gravity
+
+    def rates(_: float, state: np.ndarray) -> np.ndarray:
+        speed = abs(complex(state[2], state[3]))
+        return np.array([state[2], state[3], -k * speed * state[2], -g - k * speed * state[3]])
+
+    first = (*shot.start, *shot.velocity)
+    states = integrate_ode(rates, time, first, method="DOP853", relative_tolerance=1e-12, absolute_tolerance=1e-13)
+    return states[:, :2]
 
 
 def _stepped(poses: np.ndarray, driven: np.ndarray, steps: np.ndarray, method: str) -> np.ndarray:

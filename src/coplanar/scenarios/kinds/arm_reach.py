@@ -83,7 +83,7 @@ class ArmReach(Scenario):
     def _findings(self, things: Reached) -> list[Finding]:
         return [Finding(things.solution.sentence(), "good" if things.solution.reached else "no")]
 
-    def _outcome(self, progress: Progress) -> Outcome:
+    def _outcome(self, progress: Progress, /) -> Outcome:
         built = self.build()
         search = self._searched(built)
         progress(0.5)

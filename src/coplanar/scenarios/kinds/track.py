@@ -144,7 +144,7 @@ class Track(Scenario):
         first = Finding(f"{report.status.value}; stable for every step below {report.largest_step:.4g} s", tone)
         return [first, *(Finding(sentence, "warn") for sentence in report.warnings)]
 
-    def _outcome(self, progress: Progress) -> Outcome:
+    def _outcome(self, progress: Progress, /) -> Outcome:
         loop = self.build()
         if self._refused(loop):
             sentence = REFUSED.format(loop.report.warnings[0] if loop.report.warnings else loop.report.status.value)

@@ -1,0 +1,1 @@
+"""Logs: what robots write, read back."""
