@@ -11,7 +11,6 @@ from coplanar.errors import InvalidValue
 from coplanar.run import Kind
 from coplanar.run.files import text_of
 
-
 LARGEST = 2**30  # bytes of a log that is read unless told otherwise
 _PIECE = 2**20  # bytes read at a time
 
