@@ -42,14 +42,8 @@ def read_choreo(path: str | os.PathLike[str], *, largest: int = LARGEST) -> Run:
     """
     file = Path(path)
     table = json_of(file, contents(file, largest))
-    trajectory = table.get("trajectory") if isinstance(table, dict) else None
-    samples = trajectory.get("samples") if isinstance(trajectory, dict) else None
-    if not isinstance(table, dict) or not isinstance(trajectory, dict) or not isinstance(samples, list):
-        refuse(file, "", table, "an object with trajectory.samples, as Choreo 2025 writes it")
-    if table.get("version") not in VERSIONS or isinstance(table.get("version"), bool):
-        refuse(file, "version", table.get("version"), "one of " + ", ".join(map(str, VERSIONS)))
-    if not samples:
-        refuse(file, "trajectory.samples", samples, "at least one sample", "generate the trajectory in Choreo first")
+    trajectory = _trajectory(file, table)
+    samples = trajectory["samples"]
     differential = isinstance(samples[0], dict) and "vl" in samples[0]
     names = _DIFFERENTIAL if differential else _SWERVE
     columns = dict(zip(names, np.array([_numbers(file, i, s, names) for i, s in enumerate(samples)]).T, strict=True))
@@ -61,6 +55,18 @@ def read_choreo(path: str | os.PathLike[str], *, largest: int = LARGEST) -> Run:
     }
     with blaming(file):
         return Run((_by_sides if differential else _by_field)(columns), "body", info=info)
+
+
+def _trajectory(file: Path, table: Any) -> dict[str, Any]:
+    """The trajectory of the file, with samples."""
+    trajectory = table.get("trajectory") if isinstance(table, dict) else None
+    if not isinstance(trajectory, dict) or not isinstance(trajectory.get("samples"), list):
+        refuse(file, "", table, "an object with trajectory.samples, as Choreo 2025 writes it")
+    if table.get("version") not in VERSIONS or isinstance(table.get("version"), bool):
+        refuse(file, "version", table.get("version"), "one of " + ", ".join(map(str, VERSIONS)))
+    if not trajectory["samples"]:
+        refuse(file, "trajectory.samples", [], "at least one sample", "generate the trajectory in Choreo first")
+    return trajectory
 
 
 def _by_field(given: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
@@ -89,7 +95,8 @@ def _numbers(file: Path, place: int, sample: Any, names: tuple[str, ...]) -> lis
     for name in names:
         value = sample.get(name)
         if isinstance(value, bool) or not isinstance(value, int | float) or not _is_finite(value):
-            refuse(file, f"{name} of {where}", value, "a finite number")
+            remedy = "" if name in sample else "open and save the trajectory with a newer Choreo"
+            refuse(file, f"{name} of {where}", value, "a finite number", remedy)
     return [float(sample[name]) for name in names]
 
 

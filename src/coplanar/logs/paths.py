@@ -13,6 +13,7 @@ import numpy as np
 
 from coplanar import checks
 from coplanar.curves import Polyline, Spline
+from coplanar.errors import InvalidShape
 from coplanar.logs.files import LARGEST, contents, refuse
 from coplanar.run.files import blaming, number, text_of
 
@@ -40,6 +41,8 @@ class Waypoints:
 
     def __post_init__(self) -> None:
         points = checks.vector("points", self.points, 2)
+        if points.ndim != 2:
+            raise InvalidShape("points", f"shape {points.shape}", "shape (n, 2)")
         object.__setattr__(self, "points", checks.frozen(points))
         if self.theta is not None:
             object.__setattr__(self, "theta", checks.frozen(checks.vector("theta", self.theta, len(points))))
@@ -96,6 +99,8 @@ def read_path(path: str | os.PathLike[str], *, largest: int = LARGEST) -> Waypoi
     first = rows[0]
     names = _header(file, first) if not _is_number(first.cells[0]) else _commented(comment, len(first.cells))
     rows = rows[1:] if not _is_number(first.cells[0]) else rows
+    if not rows:
+        refuse(file, f"line {first.line}", first.cells, "points below the header")
     if names is None:
         names = dict(zip(("x", "y", "theta"), range(len(first.cells)), strict=False))
         if len(first.cells) not in (2, 3):

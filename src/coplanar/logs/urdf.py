@@ -96,10 +96,10 @@ def read_urdf(
 
     The chain from the root to the tip may have revolute, continuous, prismatic and fixed joints. The axes of all that
     turn are parallel, slides stand across them, and what comes after a slide stands along it. The plane is any; links
-    may lie at different heights above it. Its x axis is the root's x as the plane sees it (y where x stands across),
-    and it is looked at so that the root's z comes towards the eye or, in an upright plane, points up: an axis that points away from
-    the eye has the sign -1. The first fixed joint off the last axis is the end of the last link; what follows
-    is the tool.
+    may lie at different heights above it. Its x axis is the root's x as the plane sees it (y where x stands across).
+    It is looked at so that the root's z comes towards the eye or, in an upright plane, points up; an axis that points
+    away from the eye has the sign -1. The first fixed joint off the last axis is the end of the last link; what
+    follows is the tool.
 
     Args:
         path: The file; xacro is expanded before.
@@ -117,16 +117,23 @@ def read_urdf(
     slack = checks.positive("tilt", tilt)
     robot = xml_of(file, contents(file, largest))
     chain = chain_of(file, robot, tip)
+    with np.errstate(all="ignore"):
+        return _planar(file, robot.line, chain, slack)
+
+
+def _planar(file: Path, line: int, chain: list[Joint], slack: float) -> UrdfArm:
+    """The arm of a chain."""
     placed, fixed, base = _placed(chain)
     if not placed:
-        refuse(file, f"line {robot.line}", "a chain in which nothing moves", "revolute or prismatic joints")
+        refuse(file, f"line {line}", "a chain in which nothing moves", "revolute or prismatic joints")
     axes = _axes(placed)
     worst = _check_axes(file, placed, axes[2], slack)
     points = [one.position @ axes[:2].T for one in placed]
     end, last = _end_of(file, placed[-1], points[-1], [T[:3, 3] @ axes[:2].T for T in fixed], axes)
     links = [_link(file, *three, axes, slack) for three in zip(placed[:-1], points, points[1:], strict=False)]
     links.append(last)
-    arm = _arm(file, placed, links, (_pose(points[0], _heading(base, axes)), end, fixed[-1]), axes)
+    with blaming(file):
+        arm = _arm(placed, links, (_pose(points[0], _heading(base, axes)), end, fixed[-1]), axes)
     plane = np.eye(4)
     plane[:3, :3] = axes.T
     plane[:3, 3] = axes[2] * (fixed[-1][:3, 3] @ axes[2])
@@ -215,22 +222,21 @@ def _end_of(
 
 
 def _arm(
-    file: Path, placed: list[_Placed], links: list[_Link], frames: tuple[Pose, np.ndarray, np.ndarray], axes: np.ndarray
+    placed: list[_Placed], links: list[_Link], frames: tuple[Pose, np.ndarray, np.ndarray], axes: np.ndarray
 ) -> Arm:
     base, end, tip = frames
     directions = [base.theta, *(link.direction for link in links)]
     bends = [_tidy(after - before) for before, after in pairwise(directions)]
     limits = [_signed(one.joint.limits, link.sign) for one, link in zip(placed, links, strict=True)]
     tool = _pose(end, directions[-1]).between(_pose(tip[:3, 3] @ axes[:2].T, _heading(tip, axes)))
-    with blaming(file):
-        return Arm(
-            tuple(link.length for link in links),
-            joints="".join("R" if one.joint.kind in TURNING else "P" for one in placed),
-            base=base,
-            tool=Pose(_short(tool.x), _short(tool.y), _tidy(tool.theta)),
-            limits=None if all(pair == FREE for pair in limits) else limits,
-            bends=bends if any(bends) else None,
-        )
+    return Arm(
+        tuple(link.length for link in links),
+        joints="".join("R" if one.joint.kind in TURNING else "P" for one in placed),
+        base=base,
+        tool=Pose(_short(tool.x), _short(tool.y), _tidy(tool.theta)),
+        limits=None if all(pair == FREE for pair in limits) else limits,
+        bends=bends if any(bends) else None,
+    )
 
 
 def _heading(frame: np.ndarray, axes: np.ndarray) -> float:

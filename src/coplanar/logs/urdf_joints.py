@@ -104,7 +104,7 @@ def _joint(path: Path, element: Element, links: list[str]) -> Joint:
         refuse(path, where, f"joint {name!r}, which mimics another", "joints that move on their own")
     parent, child = (_end(path, element, end, links) for end in ("parent", "child"))
     axis = _vector(path, element.first("axis"), "xyz", (1.0, 0.0, 0.0))
-    length = float(np.hypot(np.hypot(axis[0], axis[1]), axis[2]))
+    length = math.hypot(*axis.tolist())
     if kind in MOVING and not 0.0 < length < math.inf:
         refuse(path, where, axis.tolist(), "an axis that is longer than 0")
     origin = _origin(path, element.first("origin"))
