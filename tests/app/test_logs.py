@@ -116,8 +116,9 @@ def test_a_missing_extra_says_how_to_get_it(tmp_path, format, module, monkeypatc
 
 
 def test_what_no_log_holds(tmp_path):
-    with pytest.raises(InvalidShape, match="no rows"):
-        write_log(Run({"t": []}), tmp_path / "run.json")
+    for nothing in (Run({"t": []}), Run({"t": [0.0], "x": np.empty((1, 0))})):
+        with pytest.raises(InvalidShape, match="at least one row and one robot"):
+            write_log(nothing, tmp_path / "run.json")
     with pytest.raises(InvalidValue, match="UTF-8"):
         write_log(Run({"t": [0.0], "\ud800": [0.0]}), tmp_path / "run.json")
     with pytest.raises(InvalidValue, match="largest"):

@@ -61,7 +61,7 @@ def write_log(run: Run, path: str | os.PathLike[str], format: str | None = None)
 
     Raises:
         UnknownName: If the format is not known.
-        InvalidShape: If the format holds one robot and the run is a batch, or the run has no rows.
+        InvalidShape: If the format holds one robot and the run is a batch, or the run has no rows or no robots.
         InvalidValue: If it cannot be written there, or the times are beyond what the format's stamps hold.
         MissingExtra: If the format needs a package that is not installed.
 
@@ -129,8 +129,8 @@ def _format_of(path: Path, format: str | None) -> Format:
 
 def _check(run: Run) -> None:
     """Refuse what no log holds."""
-    if not len(run):
-        raise InvalidShape("run", "no rows", "at least one row")
+    if not len(run) or 0 in run.shape:
+        raise InvalidShape("run", f"{len(run)} rows of shape {run.shape}", "at least one row and one robot")
     for name in run.columns:
         try:
             name.encode()

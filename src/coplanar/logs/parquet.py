@@ -19,6 +19,7 @@ from coplanar.run import Run
 from coplanar.run.files import text_of
 
 KEY = b"coplanar"
+_BATCH = 2**16  # rows read at a time
 _LONGEST_TEXT = 2**24  # bytes of a text, and entries of a list, in the footer
 
 
@@ -62,25 +63,33 @@ def _columns(source: Source, arrow: Any, parquet: Any) -> tuple[Any, dict[str, n
         thrift_string_size_limit=_LONGEST_TEXT,
         thrift_container_size_limit=_LONGEST_TEXT,
     )
-    _check_size(path, file.metadata, source.largest)
     schema = file.schema_arrow
     said = (schema.metadata or {}).get(KEY)
     description = None if said is None else parsed_json(path, text_of(path, said))
-    names = [field.name for field in schema if _is_number(arrow, field.type)]
-    table = file.read(columns=names, use_threads=False)
+    widths = {field.name: _width(arrow, field.type) for field in schema}
+    names = [name for name, width in widths.items() if width]
+    table = _read(source, arrow, file, names, sum(widths.values()))
     return description, {name: _as_numpy(path, table.column(name), name, description) for name in names}
 
 
-def _check_size(path: Path, metadata: Any, largest: int) -> None:
-    groups = [metadata.row_group(i) for i in range(metadata.num_row_groups)]
-    numbers = sum(group.column(i).num_values for group in groups for i in range(group.num_columns))
-    if 8 * max(numbers, metadata.num_rows) > largest:
-        refuse(path, "", f"{numbers} numbers", f"at most {largest // 8}", "allow more by largest=")
+def _read(source: Source, arrow: Any, file: Any, names: list[str], width: int) -> Any:
+    """The columns of these names, read in pieces, so that no file can ask for more than is allowed."""
+    fitting = source.largest // (8 * max(width, 1))
+    batches, rows = [], 0
+    for batch in file.iter_batches(max(1, min(_BATCH, fitting)), columns=names, use_threads=False):
+        rows += batch.num_rows
+        if rows > fitting:
+            needed = f"at most {fitting} rows in {source.largest} bytes"
+            refuse(source.path, "", f"{rows} rows of {width} numbers, or more", needed, "allow more by largest=")
+        batches.append(batch)
+    return arrow.Table.from_batches(batches, None if batches else file.schema_arrow)
 
 
-def _is_number(arrow: Any, kind: Any) -> bool:
-    kind = kind.value_type if arrow.types.is_fixed_size_list(kind) or arrow.types.is_list(kind) else kind
-    return bool(arrow.types.is_floating(kind) or arrow.types.is_integer(kind))
+def _width(arrow: Any, kind: Any) -> int:
+    """How many numbers an entry holds; 0 where it is none."""
+    if arrow.types.is_fixed_size_list(kind):
+        return int(kind.list_size) * _width(arrow, kind.value_type)
+    return int(arrow.types.is_floating(kind) or arrow.types.is_integer(kind))
 
 
 def _as_arrow(arrow: Any, values: np.ndarray) -> Any:
@@ -90,12 +99,12 @@ def _as_arrow(arrow: Any, values: np.ndarray) -> Any:
 
 def _as_numpy(path: Path, column: Any, name: str, description: Any) -> np.ndarray:
     rows = len(column)
-    if hasattr(column.type, "value_type"):
+    while hasattr(column.type, "value_type"):
         column = column.combine_chunks().flatten()
     values = np.asarray(column.to_numpy(), np.float64)
-    return values if values.shape == (rows,) and description is None else column_of(
-        path, name, values.astype("<f8").tobytes(), rows, description
-    )  # fmt: skip
+    if description is None and values.shape == (rows,):
+        return values
+    return column_of(path, name, values.astype("<f8").tobytes(), rows, description)
 
 
 def _packages() -> tuple[Any, Any]:
