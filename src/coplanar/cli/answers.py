@@ -54,14 +54,14 @@ class Answer:
         return {"ok": self.ok, "status": self.status, **facts, "warnings": list(self.warnings)}
 
 
-def give(answer: Answer, as_json: bool) -> None:
-    """Write the answer to stdout, and exit with 1 if it is a no."""
+def give(answer: Answer, as_json: bool, *, exits: bool = True) -> None:
+    """Write the answer to stdout, and exit with 1 if it is a no, unless there is more to say."""
     with until_closed():
         if as_json:
             typer.echo(json.dumps(answer.document(), allow_nan=False))
         else:
             _print(answer, console())
-    if not answer.ok:
+    if exits and not answer.ok:
         raise typer.Exit(NO)
 
 

@@ -22,6 +22,14 @@ if TYPE_CHECKING:
 
 COMMANDS = {
     "tour": "tour",
+    "list": "scenarios",
+    "new": "scenarios",
+    "check": "scenarios",
+    "run": "scenarios",
+    "animate": "records",
+    "export": "records",
+    "sweep": "sweeps",
+    "schema": "scenarios",
     "fk": "arms",
     "ik": "arms",
     "aim": "aim",
@@ -52,7 +60,8 @@ class Commands(TyperGroup):
 
 def _made(name: str) -> Any:
     """The command behind a name."""
-    function: Callable[..., None] = getattr(importlib.import_module(f"coplanar.cli.{COMMANDS[name]}"), name)
+    module = importlib.import_module(f"coplanar.cli.{COMMANDS[name]}")
+    function: Callable[..., None] = getattr(module, f"{name}_" if name == "list" else name)
     alone = typer.Typer(add_completion=False, rich_markup_mode=None)
     alone.command(name, cls=ListsOfNumbers)(conducted(function))
     return typer.main.get_command(alone)
