@@ -16,15 +16,14 @@ from coplanar.errors import InvalidValue
 class Noise:
     """Independent normal noise at every step; the same seed gives the same run.
 
+    Of many seeds each robot draws from its own, as it would alone.
+
     Attributes:
         position: Of the measured x and of y, standard deviation [m].
         heading: Of the measured theta [rad].
         v: Of the driven v [m/s].
         omega: Of the driven omega [rad/s].
-        seed: Of NumPy's default generator: one for all robots, who then draw in turn, or an array of one for each.
-
-    Raises:
-        InvalidValue: If a deviation is negative, or a seed no whole number of 0 or more.
+        seed: Of NumPy's default generator; a whole number, or an array of them, one a robot.
 
     Example:
         >>> Noise(position=0.01, seed=1).draw(3, ()).shape
@@ -35,15 +34,15 @@ class Noise:
     heading: Real = 0.0
     v: Real = 0.0
     omega: Real = 0.0
-    seed: int | np.ndarray = 0
+    seed: Any = 0
 
     def __post_init__(self) -> None:
-        seeds = np.asarray(self.seed)
-        if seeds.dtype.kind not in "iu" or np.any(seeds < 0):
-            raise InvalidValue("seed", self.seed, "whole numbers of 0 or more")
-        object.__setattr__(self, "seed", checks.frozen(seeds) if seeds.ndim else int(seeds))
         for name in ("position", "heading", "v", "omega"):
             object.__setattr__(self, name, checks.frozen(checks.not_negative(name, getattr(self, name))))
+        seeds = np.asarray(self.seed)
+        if seeds.dtype.kind not in "iu" or np.any(seeds < 0):
+            raise InvalidValue("seed", self.seed, "whole numbers of at least 0")
+        object.__setattr__(self, "seed", checks.frozen(seeds) if seeds.ndim else int(seeds))
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -53,15 +52,12 @@ class Noise:
 
     def draw(self, steps: int, shape: tuple[int, ...]) -> np.ndarray:
         """What is added to x, y, theta (measured), v, omega (driven), shape (steps, 5, ...)."""
-        unit = self._unit(steps, shape)
+        if np.ndim(self.seed):
+            seeds = np.broadcast_to(self.seed, shape).ravel()
+            rows = [np.random.default_rng(seed).standard_normal((steps, 5)) for seed in seeds.tolist()]
+            unit = np.stack(rows, axis=-1).reshape(steps, 5, *shape)
+        else:
+            unit = np.random.default_rng(self.seed).standard_normal((steps, 5, *shape))
         sizes: tuple[Any, ...] = (self.position, self.position, self.heading, self.v, self.omega)
         drawn: np.ndarray = unit * np.stack([np.broadcast_to(size, shape) for size in sizes])
         return drawn
-
-    def _unit(self, steps: int, shape: tuple[int, ...]) -> np.ndarray:
-        """Standard normal draws, shape (steps, 5, ...)."""
-        if np.ndim(self.seed) == 0:
-            return np.random.default_rng(self.seed).standard_normal((steps, 5, *shape))
-        seeds = np.broadcast_to(self.seed, shape).ravel()
-        own = [np.random.default_rng(seed).standard_normal((steps, 5)) for seed in seeds]
-        return np.stack(own, axis=-1).reshape(steps, 5, *shape)

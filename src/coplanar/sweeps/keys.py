@@ -17,22 +17,6 @@ def at(part: Any, key: str) -> Any:
     return part
 
 
-def put(part: Any, key: str, value: Any) -> Any:
-    """The same with another value under a key that exists; nothing is checked.
-
-    Example:
-        >>> put({"links": (1.0, 0.5)}, "links.1", 0.25)
-        {'links': (1.0, 0.25)}
-    """
-    step, _, rest = key.partition(".")
-    inner = put(_under(part, step), rest, value) if rest else value
-    if isinstance(part, tuple | list):
-        return (*part[: int(step)], inner, *part[int(step) + 1 :])
-    if isinstance(part, dict):
-        return {**part, step: inner}
-    return part.model_copy(update={_name(part, step): inner})
-
-
 def _under(part: Any, step: str) -> Any:
     if isinstance(part, tuple | list):
         return part[int(step)]
