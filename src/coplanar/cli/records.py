@@ -46,7 +46,9 @@ def animate(
 
 def export(
     run: Which,
-    to: Annotated[str | None, typer.Option("--to", metavar="FORMAT", help="csv, json, wpilog, mcap or parquet.")] = None,
+    to: Annotated[
+        str | None, typer.Option("--to", metavar="FORMAT", help="csv, json, wpilog, mcap or parquet.")
+    ] = None,
     output: Annotated[
         str | None, typer.Option("--output", "-o", metavar="FILE", help="Beside the run, named after it, unless given.")
     ] = None,

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from coplanar.scenarios import Outcome, Scenario
 
 Which = Annotated[str, typer.Argument(metavar="SCENARIO", help="A file, or a name that  coplanar list  shows.")]
-Several = Annotated[list[str], typer.Argument(metavar="SCENARIO...", help="Files, or names that  coplanar list  shows.")]
+Several = Annotated[list[str], typer.Argument(metavar="SCENARIO...", help="Files, or names from  coplanar list.")]
 Set = Annotated[list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Another value: controller.kp=20.")]
 Output = Annotated[str | None, typer.Option("--output", "-o", metavar="FILE", help="Write there; stdout unless given.")]
 
@@ -37,11 +37,11 @@ def loaded(name: str, changes: list[str] | None) -> Scenario:
 
 def list_(as_json: Json = False) -> None:
     """List the scenarios that come with the library, and the kinds that NEW makes."""
-    from coplanar.scenarios import kinds, load, names
+    from coplanar.scenarios import KINDS, load, names
 
     scenarios = [load(name) for name in names()]
     rows = [{"name": s.name, "type": s.type, "title": s.title} for s in scenarios]
-    give(Answer(f"{len(rows)} scenarios", (Fact("scenarios", rows), Fact("kinds", list(kinds())))), as_json)
+    give(Answer(f"{len(rows)} scenarios", (Fact("scenarios", rows), Fact("kinds", list(KINDS)))), as_json)
 
 
 def new(
@@ -80,7 +80,7 @@ def run(
         str | None, typer.Option("--output", "-o", metavar="DIR", help="Folder of the run; runs/NAME unless given.")
     ] = None,
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the figures.")] = True,
-    resume: Annotated[bool, typer.Option("--resume", help="Leave out what has been run already, as it is now.")] = False,
+    resume: Annotated[bool, typer.Option("--resume", help="Leave out what has been run already.")] = False,
     as_json: Json = False,
 ) -> None:
     """Run scenarios, each into a folder: scenario, tables, figures, summary."""

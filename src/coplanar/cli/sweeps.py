@@ -26,9 +26,10 @@ def sweep(
     dask: Annotated[str | None, typer.Option(metavar="ADDRESS", help="A Dask scheduler: tcp://host:8786.")] = None,
     changes: Set = None,
     output: Annotated[
-        str | None, typer.Option("--output", "-o", metavar="FILE", help=".csv or .parquet; NAME-sweep.csv if not given.")
+        str | None,
+        typer.Option("--output", "-o", metavar="FILE", help=".csv or .parquet; NAME-sweep.csv unless given."),
     ] = None,
-    plot: Annotated[str | None, typer.Option(metavar="MEASURE", help="Draw it beside the table, light and dark.")] = None,
+    plot: Annotated[str | None, typer.Option(metavar="MEASURE", help="Draw it beside the table.")] = None,
     as_json: Json = False,
 ) -> None:
     """Measure a scenario over a grid or random draws of any of its keys.
