@@ -28,7 +28,7 @@ TROUBLE = [
     b"\xff\xff\xff\x7f", b"\x00\x00\x00\x80", b"1e999", b"nan", b"null", b"-1", b"[", b"{",
     b"<", b'"', b"\n", b",", b"9" * 400, b"\xef\xbb\xbf", b"\\ud800",
 ]  # fmt: skip
-EXAMPLES = settings(deadline=None, max_examples=120, suppress_health_check=[HealthCheck.too_slow])
+EXAMPLES = settings(deadline=None, max_examples=60, suppress_health_check=[HealthCheck.too_slow])
 
 
 @pytest.fixture(scope="module")
