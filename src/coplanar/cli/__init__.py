@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +13,8 @@ __all__ = ["app", "main"]
 
 
 def main() -> None:
-    """Run ``coplanar`` as the shell does."""
+    """Run ``coplanar`` as the shell does; asked to end, it puts away what is half done."""
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     try:
         from coplanar.cli.commands import app
 

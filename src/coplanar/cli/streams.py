@@ -116,10 +116,8 @@ def _written(
     with progress("rows") as step:
         for piece in pieces:
             table = _table(piece)
-            if tally.rows == 0:
-                write(_header(piece))
-            chosen = table[-tally.rows % every :: every]
-            write(_text(chosen, decimals))
+            head = b"" if tally.rows else _header(piece)
+            write(head + _text(table[-tally.rows % every :: every], decimals))
             tally.add(piece)
             last = b"" if (tally.rows - 1) % every == 0 else _text(table[-1:], decimals)
             step("poses", tally.rows, None)

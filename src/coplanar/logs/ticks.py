@@ -208,7 +208,8 @@ def reckon(
         if len(good.lines):
             path = _along(before, good, measured, timed, onward)
             count, lost = _on_the_plane(path, good, name)
-            yield path if lost is None else path.first(count)
+            if count:
+                yield path if lost is None else path.first(count)
             onward, before, fault = path.onward, good.values[-1:], lost or fault
         if fault is not None:
             raise fault
