@@ -35,7 +35,12 @@ def text_of(table, separator=",", head=""):
 
 def table_of(csv):
     head, *rows = csv.splitlines()
-    return head.split(","), np.array([[float(cell) for cell in row.split(",")] for row in rows])
+    return head.split(","), np.loadtxt(rows, delimiter=",", ndmin=2)
+
+
+def close(rows, others):
+    """The same to 1e-12 m: a long call may run as a compiled loop, whose sines round in their own way."""
+    return rows.shape == others.shape and np.abs(rows - others).max() <= 1e-12 * (1.0 + np.abs(others).max())
 
 
 def expected(table, start=Pose(), **options):  # noqa: B008
@@ -45,14 +50,14 @@ def expected(table, start=Pose(), **options):  # noqa: B008
 
 @pytest.mark.parametrize("separator", [",", " ", "\t", ";"])
 def test_a_file_and_a_pipe_give_the_poses_of_the_library(tmp_path, separator):
-    table = drive(3 * MOST + 7)
+    table = drive(MOST + 7)
     log = tmp_path / "drive.log"
     log.write_bytes(text_of(table, separator, "# drive\n"))
     for code, out, err in (run("odometry", log, *VELOCITIES), run("odometry", "-", *VELOCITIES, data=log.read_bytes())):
         assert (code, err) == (0, "")
         names, rows = table_of(out)
         assert names == ["t", "x", "y", "theta"]
-        assert rows == pytest.approx(expected(table), rel=1e-12, abs=1e-12)  # a long call may run as compiled loop
+        assert close(rows, expected(table))
 
 
 @pytest.mark.parametrize("method", ["euler", "midpoint", "heun", "rk4", "exact"])
@@ -102,10 +107,10 @@ def test_columns_by_name_and_number_and_the_summary():
 
 @pytest.mark.parametrize("every", [1, 2, 7, MOST, MOST + 1, 10**9])
 def test_each_nth_pose_and_the_last_one(every):
-    table = drive(2 * MOST + 5)
+    table = drive(MOST + 5)
     rows = table_of(run("odometry", "-", *VELOCITIES, "--every", every, data=text_of(table))[1])[1]
     places = sorted({*range(0, len(table), every), len(table) - 1})
-    assert rows == pytest.approx(expected(table)[places], rel=1e-12, abs=1e-12)
+    assert close(rows, expected(table)[places])
 
 
 def test_decimals():
@@ -144,7 +149,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize("name", WRONG)
-@pytest.mark.parametrize("good", [1, 40_000])
+@pytest.mark.parametrize("good", [1, 20_000])
 def test_a_bad_value_names_its_line_and_what_was_finished_stays(tmp_path, name, good):
     bad, words = WRONG[name]
     table = drive(good)
@@ -155,9 +160,7 @@ def test_a_bad_value_names_its_line_and_what_was_finished_stays(tmp_path, name, 
     assert err.startswith("error: ")
     assert words.format(good + 1) in err
     if name != "binary":
-        assert table_of(out)[1] == pytest.approx(
-            expected(table) if good > 1 else np.zeros((1, 4)), rel=1e-12, abs=1e-12
-        )
+        assert close(table_of(out)[1], expected(table) if good > 1 else np.zeros((1, 4)))
     target = tmp_path / "poses.csv"
     target.write_text("before")
     assert run("odometry", "-", *VELOCITIES, "-o", target, data=data)[0] == 2
