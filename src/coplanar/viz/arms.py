@@ -99,7 +99,7 @@ def plot_workspace(region: Chain | Workspace, ax: Axes | None = None, *, label: 
     space = region if isinstance(region, Workspace) else workspace_of(region)
     pieces = space.boundary(129)
     if not space.exact:
-        pieces = around(*pieces, np.array(space.centre))
+        pieces = around(pieces[0], pieces[1], np.array(space.centre))
     outlines = loops_of(pieces)
     if outlines:
         paper.region(*outlines, colour="sixth", alpha=0.1)

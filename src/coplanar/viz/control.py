@@ -12,7 +12,7 @@ from coplanar.viz.paper import Axes, Paper
 
 
 def plot_poles(report: StabilityReport, ax: Axes | None = None, *, title: bool = True) -> Axes:
-    """The poles of a loop and the unit circle, its stability boundary: inside, an error dies out.
+    r"""The poles of a loop and the unit circle, its stability boundary: inside, an error dies out.
 
     Args:
         report: Of one loop, or of an array of gains, whose poles are all drawn.
@@ -23,7 +23,7 @@ def plot_poles(report: StabilityReport, ax: Axes | None = None, *, title: bool =
         >>> from coplanar.control import PointTracker
         >>> ax = plot_poles(PointTracker((0.05, 0.0), kp=100.0, kd=0.5).stability(0.01))
         >>> ax.get_title(loc="left")
-        'exactly on the stability boundary: an error neither grows\\nnor dies out'
+        'exactly on the stability boundary: an error neither grows\nnor dies out'
     """
     paper = Paper.on(ax, xlabel="Re z", ylabel="Im z")
     circle = disc(1.0, 181)

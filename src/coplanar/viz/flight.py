@@ -120,11 +120,12 @@ def _landed(paper: Paper, shots: Shot, duration: Real | None, level: float) -> A
         if not np.all(impact.reached):
             raise InvalidValue("duration", None, "a duration, as not every shot lands", "give one, or another level")
         duration = impact.time
-    plot_shot(shots, duration, paper.ax, **({"color": "trail"} if np.ndim(shots.speed) == 0 else {}))
+    one = np.ndim(shots.speed) == 0
+    plot_shot(shots, duration, paper.ax, color="trail" if one else None)
     ends = shots.at(duration)
     paper.dots(ends.position, "target", size=5)
-    apex = shots.apex()
-    if np.ndim(shots.speed) == 0:
+    if one:
+        apex = shots.apex()
         paper.dots(apex.position, "third", size=5)
         paper.text(f"apex {apex.y:.4g} m, {apex.time:.3g} s", apex.position, "third", offset=(0.0, 11.0))
     return paper.ax

@@ -146,7 +146,7 @@ def plot_ramp(ramp: Ramp, ax: Axes | None = None, *, names: Sequence[str] = (), 
 
     Example:
         >>> ax = plot_ramp(Ramp.independent([0.4, 0.2], [1.2, -0.6], [0.5, 0.25]))
-        >>> ax.lines[1].get_xdata().tolist()
+        >>> ax.lines[1].get_xdata().round(9).tolist()
         [1.6]
     """
     width = ramp.start.shape[-1]

@@ -64,7 +64,8 @@ class Paper:
     def styled(self, options: dict[str, Any], colour: Any = None) -> dict[str, Any]:
         """Matplotlib's keywords of a line with the theme's colour, the given one or the next one free."""
         own = {"c": "color", "lw": "linewidth", "ls": "linestyle"}
-        style = {"linewidth": 1.8, "solid_capstyle": "round"} | {own.get(k, k): v for k, v in options.items()}
+        named = {own.get(k, k): v for k, v in options.items() if v is not None}
+        style = {"linewidth": 1.8, "solid_capstyle": "round"} | named
         given = style.get("color", colour)
         style["color"] = self.next_colour() if given is None else self.theme.colour(given)
         return style
@@ -79,8 +80,7 @@ class Paper:
     def lines(self, members: np.ndarray, colour: Any = None, **options: Any) -> list[Any]:
         """Lines (k, n, 2), one a member of a batch; a few are told apart by colour, many share one. Their colours."""
         if len(members) <= FEW:
-            given = colour is not None or "color" in options
-            return [self.line(xy, colour if given else None, **options) for xy in members]
+            return [self.line(xy, colour, **options) for xy in members]
         from matplotlib.collections import LineCollection
 
         style = self.styled(options, colour)
@@ -138,7 +138,8 @@ class Paper:
         halo = [withStroke(linewidth=2.6, foreground=self.theme.surface)]
         self.ax.annotate(
             text, tuple(np.asarray(at, np.float64)), xytext=offset, textcoords="offset points", ha=align, va="center",
-            color=self.theme.colour(colour), fontsize=size, path_effects=halo, zorder=6, annotation_clip=False, **options,
+            color=self.theme.colour(colour), fontsize=size, path_effects=halo, zorder=6, annotation_clip=False,
+            **options,
         )  # fmt: skip
 
     def legend(self, **options: Any) -> None:

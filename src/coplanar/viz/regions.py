@@ -8,7 +8,7 @@ JOINED = 1e-6  # of the extent: ends nearer than this are one point
 
 
 def loops_of(pieces: list[np.ndarray]) -> list[np.ndarray]:
-    """Outlines (n, 2) joined of pieces (k, 2) end to end; those inside another turn the other way. Empty if one is open.
+    """Outlines (n, 2) joined of pieces (k, 2) end to end, holes turning the other way; none at all if one stays open.
 
     Example:
         >>> upper, lower = np.array([[1.0, 0], [0, 1], [-1, 0]]), np.array([[1.0, 0], [0, -1], [-1, 0]])

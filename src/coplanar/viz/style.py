@@ -14,7 +14,10 @@ from typing import Any
 from coplanar import checks
 
 ORDER = ("first", "second", "third", "fourth", "fifth", "sixth")
-ROLES = {"link": "first", "body": "first", "trail": "second", "target": "fourth", "reference": "sixth"}
+ROLES = {
+    "link": "first", "body": "first", "trail": "second", "target": "fourth", "reference": "sixth",
+    "good": "third", "warn": "second", "no": "fourth",
+}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,12 +53,6 @@ class Theme:
         if place in ORDER:
             return self.series[ORDER.index(place)]
         return self.series[int(name[1:]) % len(self.series)] if name[:1] == "C" and name[1:].isdigit() else name
-
-    @property
-    def variables(self) -> str:
-        """The colours as CSS custom properties: ``--surface: #ffffff; ... --first: ...;``."""
-        named = {name: self.colour(name) for name in ("surface", "ink", "muted", "grid", *ORDER)}
-        return " ".join(f"--{name}: {colour};" for name, colour in named.items())
 
 
 LIGHT = Theme(
@@ -122,14 +119,3 @@ def drawn_in(name: str) -> Iterator[Theme]:
     theme = theme_named(name)
     with mpl.rc_context(rc_params(theme)):
         yield theme
-
-
-def palette_css() -> str:
-    """The palette for a page that follows the reader's choice of light and dark, as CSS.
-
-    Example:
-        >>> palette_css().count("--first:")
-        2
-    """
-    dark = f"@media (prefers-color-scheme: dark) {{ :root {{ {DARK.variables} }} }}"
-    return f":root {{ color-scheme: light dark; {LIGHT.variables} }}\n{dark}\n"

@@ -6,7 +6,6 @@ import textwrap
 
 import numpy as np
 
-from coplanar.checks import ArrayLike
 from coplanar.se2 import Pose, Twist
 from coplanar.viz.axes import disc
 from coplanar.viz.paper import Axes, Paper
@@ -17,7 +16,7 @@ TURNS = 1e-6  # of the speed: a slower turn is drawn as a translation
 
 
 def plot_base(base: WheeledBase, ax: Axes | None = None, *, cannot: bool = True, drives: bool = True) -> Axes:
-    """A base from above in its own frame: wheels with rollers and drive directions, x forward, crossed what it cannot do.
+    """A base from above in its own frame: wheels, rollers, drive directions; what it cannot do is crossed.
 
     The lines across a wheel are the axles of the rollers that touch the ground.
 
@@ -109,7 +108,7 @@ def plot_rolling(
     path = wheel.rim_path(np.linspace(-0.55 * np.pi, 1.2 * np.pi, 121))
     paper.line(path, "trail", linewidth=1.1, linestyle="--", label="path of a rim point")
     paper.line([(-2.2 * r, 0.0), (4.4 * r, 0.0)], "muted", linewidth=1.2)
-    paper.region(disc(r, 73) + (0.0, r), colour="body", alpha=0.1, edge=1.8)
+    paper.region(disc(r, 73) + np.array([0.0, r]), colour="body", alpha=0.1, edge=1.8)
     for point, velocity in zip(points, velocities, strict=True):
         if float(np.hypot(*velocity)) * scale > 0.02 * r:
             paper.arrow(point, point + scale * velocity, "first", width=1.3, head=9.0)
@@ -130,7 +129,7 @@ def _reach(base: WheeledBase) -> float:
 
 def _drive(paper: Paper, wheel: Wheel) -> None:
     rim = Pose(wheel.x, wheel.y, wheel.drive_angle) @ np.array([(wheel.radius, 0.0), (1.75 * wheel.radius, 0.0)])
-    paper.arrow(*rim, "first", width=1.4, head=9.0)
+    paper.arrow(rim[0], rim[1], "first", width=1.4, head=9.0)
 
 
 def _wheel(paper: Paper, wheel: Wheel, name: str) -> None:
