@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ import numpy as np
 from coplanar import checks
 from coplanar.checks import ArrayLike
 from coplanar.errors import InvalidShape
+from coplanar.viz.web import player_source as player_source
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,12 +85,6 @@ class Scene:
         if len(values) != len(self.times):
             raise InvalidShape(name, f"{len(values)} frames", f"{len(self.times)} frames, one per time")
         return _rounded(name, values, width)
-
-
-def player_source() -> tuple[str, str]:
-    """The renderer's JavaScript and the style sheet that goes with it."""
-    here = Path(__file__).parent
-    return (here / "player.js").read_text("utf-8"), (here / "player.css").read_text("utf-8")
 
 
 def _rounded(name: str, values: ArrayLike, width: int | None) -> list[list[float]]:
