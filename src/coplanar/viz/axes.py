@@ -15,6 +15,7 @@ from coplanar.run import Run
 from coplanar.se2 import Pose
 from coplanar.viz.paper import Axes, Paper
 
+APART = 0.4  # of a robot's radius, plus radians turned: nearer than this, robots are drawn as one
 CURVE_POINTS = 401  # of a curve that is drawn as a path
 
 
@@ -62,7 +63,7 @@ def plot_headings(
     Args:
         poses: A run, poses of shape (..., n), or x, y [m] and heading [rad], shape (..., n, 3).
         ax: Where to draw; a new figure if None.
-        count: How many of the poses are drawn, evenly over the rows.
+        count: How many of the poses are drawn, evenly over the rows; of those that nearly coincide one.
         length: Radius of the disc [m]; a part of the path's extent if None.
         colour: Of the discs.
     """
@@ -71,7 +72,7 @@ def plot_headings(
         table = table[np.isfinite(table).all(axis=1)]
         radius = robot_radius(table[:, :2]) if length is None else length
         rows = table[np.unique(np.linspace(0, len(table) - 1, min(count, len(table))).round().astype(int))]
-        _robots(paper, rows, radius, colour)
+        _robots(paper, _apart(rows, radius), radius, colour)
     return paper.ax
 
 
@@ -164,6 +165,15 @@ def disc(radius: float, count: int = 41) -> np.ndarray:
     """A closed circle about the origin, shape (count, 2) [m]."""
     around = np.linspace(0.0, 2.0 * np.pi, count)
     return radius * np.column_stack([np.cos(around), np.sin(around)])
+
+
+def _apart(rows: np.ndarray, radius: float) -> np.ndarray:
+    """Poses without those that nearly coincide with the one kept before."""
+    kept = rows[:1]
+    for row in rows[1:]:
+        moved = float(np.hypot(*(row - kept[-1])[:2])) / radius + abs(row[2] - kept[-1][2])
+        kept = np.vstack([kept, row]) if moved > APART else kept
+    return kept
 
 
 def _robots(paper: Paper, rows: np.ndarray, radius: float, colour: Any) -> None:

@@ -30,6 +30,17 @@ def loops_of(pieces: list[np.ndarray]) -> list[np.ndarray]:
             forward = np.hypot(*(piece[0] - loop[-1])) <= near
             loop = np.vstack([loop, (piece if forward else piece[::-1])[1:]])
         loops.append(loop[:-1])
+    return turned(loops)
+
+
+def turned(loops: list[np.ndarray]) -> list[np.ndarray]:
+    """Outlines (n, 2), those inside an odd number of others clockwise, the others counterclockwise.
+
+    Example:
+        >>> square = np.array([[1.0, 1.0], [1, -1], [-1, -1], [-1, 1]])
+        >>> [loop[1].tolist() for loop in turned([3.0 * square, square])]
+        [[-3.0, 3.0], [1.0, -1.0]]
+    """
     return [_turned(loop, sum(_holds(other, loop[0]) for other in loops if other is not loop)) for loop in loops]
 
 
