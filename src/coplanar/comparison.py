@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -99,7 +100,7 @@ class IntegratorComparison:
         Example:
             >>> decay = compare_integrators(lambda t, y: -y, 1.0, [1.0], exact=lambda t: np.exp(-t)[:, None])
             >>> round(1.0 / decay.largest_step("euler")), round(1.0 / decay.largest_step("rk4"))
-            (184, 2)
+            (185, 2)
         """
         allowed = checks.positive("tolerance", tolerance)
         few, many = 0, 1
@@ -145,7 +146,7 @@ def compare_integrators(
     for method in methods:
         checks.choice("method", method, METHODS)
     whole = tuple(int(count) for count in counts)
-    if not whole or whole[0] < 1 or any(b <= a for a, b in zip(whole, whole[1:], strict=False)):
+    if not whole or whole[0] < 1 or any(b <= a for a, b in itertools.pairwise(whole)):
         raise InvalidValue("counts", counts, "whole numbers that increase from 1 or more")
     truth = exact or _by_dop853(rates, start)
     given = np.shape(truth(np.array([0.0, length])))

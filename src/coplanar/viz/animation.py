@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import os
 import secrets
+import shutil
 import subprocess
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import IO, Any, NamedTuple, cast
 
 import numpy as np
 
@@ -24,6 +26,7 @@ from coplanar.viz.style import theme_named
 SUFFIXES = (".gif", ".html", ".mp4")
 FASTEST = {".gif": 50.0, ".mp4": 120.0}  # [frames/s] viewers slow down a GIF that asks for more
 SMALLEST, LARGEST = 64, 4096  # [pixels]
+HELD = 400_000_000  # [bytes] of the frames of a GIF, which are held until it is written
 STILL = 1.0  # how long a scene that does not move is shown [s]
 
 Progress = Callable[[int, int], None]
@@ -95,10 +98,13 @@ def animate(
     ffmpeg = _ffmpeg() if kind == ".mp4" else ""
     if kind == ".mp4":
         width, height = width + width % 2, height + height % 2
-    timing = Timing.of(scene, rate, pace, most)
-    frames = _frames(SceneRenderer(scene, colours, (width, height)), timing, progress)
     if kind == ".gif":
-        return _whole(target, lambda part: _write_gif(part, list(frames), timing))
+        most = min(most, max(2, HELD // (width * height)))
+    timing = Timing.of(scene, rate, pace, most)
+    renderer = SceneRenderer(scene, colours, (width, height))
+    frames = _frames(renderer, timing, progress)
+    if kind == ".gif":
+        return _whole(target, lambda part: _write_gif(part, _palette(renderer, timing), frames, timing))
     return _whole(target, lambda part: _write_mp4(part, ffmpeg, frames, timing, (width, height)))
 
 
@@ -132,17 +138,25 @@ def _write_text(part: Path, text: str) -> None:
         file.write(text)
 
 
-def _write_gif(part: Path, frames: list[np.ndarray], timing: Timing) -> None:
+def _palette(renderer: SceneRenderer, timing: Timing) -> Any:
+    """The colours of some of the frames."""
+    from PIL import Image
+
+    sample = timing.times[:: max(1, len(timing.times) // 8)]
+    stacked = np.concatenate([renderer.frame(t) for t in sample.tolist()])
+    return Image.fromarray(stacked).quantize(colors=128, method=Image.Quantize.MEDIANCUT)
+
+
+def _write_gif(part: Path, palette: Any, frames: Iterator[np.ndarray], timing: Timing) -> None:
     """One palette for all frames, and durations in hundredths of a second that add up to the film's."""
     from PIL import Image
 
-    sample = np.concatenate(frames[:: max(1, len(frames) // 8)])
-    palette = Image.fromarray(sample).quantize(colors=128, method=Image.Quantize.MEDIANCUT)
-    pictures = [Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
-    ends = np.round(100.0 * timing.duration * np.arange(len(frames) + 1) / len(frames))
+    count = len(timing.times)
+    pictures = (Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames)
+    ends = np.round(100.0 * timing.duration * np.arange(count + 1) / count)
     shown = np.maximum(10.0 * np.diff(ends), 20.0).astype(int).tolist()
     with part.open("xb") as file:
-        pictures[0].save(file, format="GIF", save_all=True, append_images=pictures[1:], duration=shown, loop=0)
+        next(pictures).save(file, format="GIF", save_all=True, append_images=pictures, duration=shown, loop=0)
 
 
 def _ffmpeg() -> str:
@@ -152,9 +166,11 @@ def _ffmpeg() -> str:
         MissingExtra: If there is neither.
     """
     try:
-        program: str = importlib.import_module("imageio_ffmpeg").get_ffmpeg_exe()
+        program: str | None = importlib.import_module("imageio_ffmpeg").get_ffmpeg_exe()
     except (ImportError, RuntimeError):
-        raise MissingExtra("imageio-ffmpeg", "video") from None
+        program = shutil.which("ffmpeg")
+    if program is None:
+        raise MissingExtra("imageio-ffmpeg", "video")
     return program
 
 
@@ -166,16 +182,23 @@ def _write_mp4(part: Path, ffmpeg: str, frames: Iterator[np.ndarray], timing: Ti
         "-preset", "medium", "-pix_fmt", "yuv420p", "-movflags", "+faststart", str(part),
     ]  # fmt: skip
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
-        pipe: Any = process.stdin
+        pipe, complaints = cast(IO[bytes], process.stdin), cast(IO[bytes], process.stderr)
         try:
             for frame in frames:
                 pipe.write(frame.tobytes())
             pipe.close()
-            said = process.stderr.read() if process.stderr else b""
         except BrokenPipeError:
-            said = process.stderr.read() if process.stderr else b""
+            _closed(pipe)
         except BaseException:
             process.kill()
+            _closed(pipe)
             raise
+        said = complaints.read().decode("utf-8", "replace").strip()
         if process.wait():
-            raise NoSolution(f"ffmpeg failed: {said.decode('utf-8', 'replace').strip()[-300:]}", command)
+            raise NoSolution(f"ffmpeg failed: {said[-300:]}", command)
+
+
+def _closed(pipe: IO[bytes]) -> None:
+    """Close a pipe whose reader has gone."""
+    with contextlib.suppress(BrokenPipeError):
+        pipe.close()

@@ -15,6 +15,7 @@ from coplanar.viz.paper import Axes, Paper
 from coplanar.viz.regions import around, loops_of
 
 SMALLEST = 0.05  # [rad] a smaller joint angle is not drawn
+FLAT = 1e-9  # a force ellipse that is thinner than this part of its length is unbounded
 DRAWN = 0.3  # of the arm's length: the largest half axis of an ellipse
 
 
@@ -71,7 +72,7 @@ def plot_ellipse(
     paper = Paper.plane(ax)
     postures = np.asarray(arm.checked_joints("q", q)).reshape(-1, arm.n)
     shape = arm.ellipse(postures, kind=kind)
-    bounded = np.isfinite(shape.radii).all(axis=-1)
+    bounded = shape.radii[:, 0] * FLAT < (shape.radii[:, 1] if kind == "force" else np.inf)
     largest = float(shape.radii[bounded].max(initial=0.0))
     size = DRAWN * float(np.hypot(*np.diff(arm.points(postures[0]), axis=0).T).sum())
     factor = scale or (size / largest if largest > 0.0 else 1.0)

@@ -56,7 +56,7 @@ def plot_convergence(
         >>> decay = compare_integrators(lambda t, y: -y, 1.0, [1.0], methods=("euler", "rk4"))
         >>> ax = plot_convergence(decay)
         >>> [text.get_text() for text in ax.get_legend().get_texts()][0]
-        'euler, order 1.0; 1 mm: 0.00543 s'
+        'euler, order 1.0; 1 mm: 0.00541 s'
     """
     paper = Paper.on(ax, xlabel="step [s]", ylabel=f"largest error [{unit}]")
     paper.ax.set_xscale("log")

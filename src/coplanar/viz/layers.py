@@ -161,7 +161,7 @@ def _pieces(pen: Pen, layer: Layer, width: float) -> tuple[Any, Callable[[np.nda
     from matplotlib.collections import LineCollection
 
     style = pen.stroke(layer, width, dashed=bool(layer.get("dashed")))
-    bundle = LineCollection([], capstyle="round", **style)
+    bundle: Any = LineCollection([], capstyle="round", **style)
     pen.ax.add_collection(bundle, autolim=False)
     return bundle, bundle.set_segments
 

@@ -39,7 +39,7 @@ def turned(loops: list[np.ndarray]) -> list[np.ndarray]:
     Example:
         >>> square = np.array([[1.0, 1.0], [1, -1], [-1, -1], [-1, 1]])
         >>> [loop[1].tolist() for loop in turned([3.0 * square, square])]
-        [[-3.0, 3.0], [1.0, -1.0]]
+        [[-3.0, -3.0], [1.0, -1.0]]
     """
     return [_turned(loop, sum(_holds(other, loop[0]) for other in loops if other is not loop)) for loop in loops]
 

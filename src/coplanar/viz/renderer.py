@@ -43,15 +43,11 @@ class SceneRenderer:
     """
 
     def __init__(self, scene: Scene, theme: Theme, size: tuple[int, int]) -> None:
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-
         for layer in scene.layers:
             checks.choice("layer", layer["kind"], KINDS)
         self.times = np.asarray(scene.times, np.float64)
-        figure = Figure(figsize=(size[0] / DPI, size[1] / DPI), dpi=DPI, facecolor=theme.surface)
-        self.canvas = FigureCanvasAgg(figure)
-        self.ax, scale = _axes(figure, scene, theme, size)
+        self.canvas = _canvas(theme, size)
+        self.ax, scale = _axes(self.canvas.figure, scene, theme, size)
         pen = Pen(self.ax, theme, scale, 72.0 / DPI)
         self.moving: list[tuple[list[Any], Callable[[Moment], None]]] = []
         for layer in scene.layers:
@@ -65,7 +61,7 @@ class SceneRenderer:
         for artist in self._artists():
             artist.set_animated(True)
         self.canvas.draw()
-        self.still = self.canvas.copy_from_bbox(figure.bbox)
+        self.still = self.canvas.copy_from_bbox(self.canvas.figure.bbox)
 
     def frame(self, t: float) -> np.ndarray:
         """The picture at time t, clipped to the scene's times, shape (height, width, 3), one byte a colour."""
@@ -97,6 +93,13 @@ class SceneRenderer:
             0.995, 0.99, "", transform=self.ax.transAxes, ha="right", va="top", color=theme.muted, fontsize=8.5,
             family="monospace", zorder=1000,
         )  # fmt: skip
+
+
+def _canvas(theme: Theme, size: tuple[int, int]) -> Any:
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    return FigureCanvasAgg(Figure(figsize=(size[0] / DPI, size[1] / DPI), dpi=DPI, facecolor=theme.surface))
 
 
 def _moves(layer: dict[str, Any]) -> bool:

@@ -121,8 +121,7 @@ def plot_run(
     Returns:
         The figure.
     """
-    drawn: list[Callable[[Axes], Any]] = [lambda ax, name=name: plot_commands(run, ax, names=(name,))
-                                          for name in run.names.commands]  # fmt: skip
+    drawn = [_command(run, name) for name in run.names.commands]
     if run.names.errors:
         drawn.append(lambda ax: plot_errors(run, ax))
     if run.kind == "arm":
@@ -140,6 +139,10 @@ def plot_run(
     for ax in figure.axes:
         ax.label_outer()
     return figure
+
+
+def _command(run: Run, name: str) -> Callable[[Axes], Any]:
+    return lambda ax: plot_commands(run, ax, names=(name,))
 
 
 def _path(run: Run, reference: Any, point: Any) -> Callable[[Axes], Any]:
