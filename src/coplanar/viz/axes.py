@@ -33,8 +33,8 @@ def plot_path(path: Run | Pose | Curve | ArrayLike, ax: Axes | None = None, **li
     """A path, its start marked.
 
     Args:
-        path: A run or poses, whose positions are drawn; a curve; or points (..., n, 2) [m]. Every member of a batch is
-            drawn; more than six share one colour.
+        path: A run or poses, whose positions are drawn; a curve; or points (..., n, 2) [m], which may have a third
+            column. Every member of a batch is drawn; more than six share one colour.
         ax: Where to draw; a new figure if None.
         **line: Passed to Matplotlib's ``plot``: ``label``, ``color``, ``linestyle``. Colours may be roles ("trail").
 
@@ -135,9 +135,9 @@ def path_points(path: Any) -> np.ndarray:
         xy = np.moveaxis(path.stacked("x", "y"), 0, -2)
     else:
         xy = path.position if isinstance(path, Pose) else np.asarray(path, np.float64)
-    if xy.ndim < 2 or xy.shape[-1] != 2:
-        raise InvalidShape("path", f"shape {xy.shape}", "points of shape (..., n, 2)")
-    return xy.reshape(-1, *xy.shape[-2:])
+    if xy.ndim < 2 or xy.shape[-1] not in (2, 3):
+        raise InvalidShape("path", f"shape {xy.shape}", "points of shape (..., n, 2), or poses of shape (..., n, 3)")
+    return xy[..., :2].reshape(-1, *xy.shape[-2:-1], 2)
 
 
 def pose_rows(poses: Any) -> np.ndarray:

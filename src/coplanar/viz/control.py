@@ -11,13 +11,13 @@ from coplanar.viz.axes import disc
 from coplanar.viz.paper import Axes, Paper
 
 
-def plot_poles(report: StabilityReport, ax: Axes | None = None, *, title: bool = True) -> Axes:
+def plot_poles(report: StabilityReport, ax: Axes | None = None, *, words: bool | None = None) -> Axes:
     r"""The poles of a loop and the unit circle, its stability boundary: inside, an error dies out.
 
     Args:
         report: Of one loop, or of an array of gains, whose poles are all drawn.
         ax: Where to draw; a new figure if None.
-        title: Whether the status of a single loop is written above.
+        words: Whether there are a legend and, above a single loop, its status; by default in a figure of its own.
 
     Example:
         >>> from coplanar.control import PointTracker
@@ -26,6 +26,7 @@ def plot_poles(report: StabilityReport, ax: Axes | None = None, *, title: bool =
         'exactly on the stability boundary: an error neither grows\nnor dies out'
     """
     paper = Paper.on(ax, xlabel="Re z", ylabel="Im z")
+    spoken = ax is None if words is None else words
     circle = disc(1.0, 181)
     paper.region(circle, colour="third", alpha=0.08)
     paper.line(circle, "third", linewidth=1.4, label="stability boundary")
@@ -37,10 +38,11 @@ def plot_poles(report: StabilityReport, ax: Axes | None = None, *, title: bool =
         paper.dots(_points(across), "first", marker="+", size=10, markeredgewidth=2.0, label="across the path")
     paper.ax.set_aspect("equal")
     half = 1.12 * max(1.1, float(np.abs(_points(poles)).max()))
-    paper.ax.set(xlim=(-half, half), ylim=(-half - 0.7, half))
-    if title and np.ndim(report.margin) == 0:
+    paper.ax.set(xlim=(-half, half), ylim=(-half - 0.7 * spoken, half))
+    if spoken and np.ndim(report.margin) == 0:
         paper.title(textwrap.fill(report.status.value, 58))
-    paper.legend(loc="lower center", fontsize=8)
+    if spoken:
+        paper.legend(loc="lower center", fontsize=8)
     return paper.ax
 
 

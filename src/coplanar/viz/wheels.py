@@ -49,7 +49,7 @@ def plot_base(base: WheeledBase, ax: Axes | None = None, *, cannot: bool = True,
         paper.title(textwrap.fill("; ".join(base.cannot), 64))
         for twist in _missing(base):
             _crossed(paper, twist, reach)
-    paper.ax.margins(0.12)
+    paper.ax.margins(0.25)
     return paper.ax
 
 
@@ -117,7 +117,7 @@ def plot_rolling(
     paper.dots([(0.0, 0.0)], "target", size=6)
     spare = float(np.hypot(*wheel.contact_velocity(rate, slip=slip)))
     paper.text(f"centre {middle:.3g} m/s", (0.0, r), "third", offset=(0.0, -11.0))
-    paper.text(f"contact {spare:.3g} m/s", (0.0, 0.0), "target", offset=(0.0, -13.0))
+    paper.text(f"contact {spare:.3g} m/s", (0.0, 0.0), "target", offset=(0.0, -24.0))
     paper.text(f"top {np.hypot(*top):.3g} m/s", (scale * top[0], 2.0 * r), "first", offset=(6.0, 6.0), align="left")
     paper.legend(loc="upper right")
     return paper.ax
