@@ -145,9 +145,7 @@ def compare_integrators(
         raise InvalidShape("y0", f"shape {start.shape}", "a vector (n,)")
     for method in methods:
         checks.choice("method", method, METHODS)
-    whole = tuple(int(count) for count in counts)
-    if not whole or whole[0] < 1 or any(b <= a for a, b in itertools.pairwise(whole)):
-        raise InvalidValue("counts", counts, "whole numbers that increase from 1 or more")
+    whole = _increasing(counts)
     truth = exact or _by_dop853(rates, start)
     given = np.shape(truth(np.array([0.0, length])))
     if given != (2, start.size):
@@ -156,6 +154,13 @@ def compare_integrators(
     bare = IntegratorComparison(rates, length, start, truth, entries, tuple(methods), whole, np.empty(0))
     errors = np.array([[bare.error(method, count) for count in whole] for method in methods])
     return IntegratorComparison(rates, length, start, truth, entries, bare.methods, whole, checks.frozen(errors))
+
+
+def _increasing(counts: Sequence[int]) -> tuple[int, ...]:
+    whole = tuple(int(count) for count in counts)
+    if not whole or whole[0] < 1 or any(b <= a for a, b in itertools.pairwise(whole)):
+        raise InvalidValue("counts", counts, "whole numbers that increase from 1 or more")
+    return whole
 
 
 def _next_count(order: int, count: int, too_much: float) -> int:

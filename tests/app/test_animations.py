@@ -221,6 +221,16 @@ def test_what_is_drawn_is_where_it_is():
         assert middle_of(renderer.frame(t), LIGHT.series[0]) == pytest.approx((x, 300.0 - y), abs=1.0)
 
 
+def test_words_are_shifted_to_the_right_and_down():
+    at = np.zeros((2, 2))
+    view = (-1.0, 1.0, -1.0, 1.0)
+    places = []
+    for shift in ([0, 0], [20, 30]):
+        scene = replace(Scene([0.0, 1.0]).text("M", at, role="first", shift=shift), view=view)
+        places.append(middle_of(SceneRenderer(scene, LIGHT, (200, 200)).frame(0.0), LIGHT.series[0], off=80))
+    assert np.subtract(*places[::-1]) == pytest.approx((20.0, 30.0), abs=1.0)
+
+
 def test_one_layer_covers_another_in_the_order_of_the_scene():
     dot = [(0.0, 0.0), (0.0, 0.0)]
     scene = Scene([0.0, 1.0]).moving_point(dot, role="first", size=20.0).moving_point(dot, role="second", size=10.0)

@@ -328,6 +328,10 @@ def test_the_icr_is_on_every_axle():
     for wheel in DIFFERENTIAL.wheels:
         assert holds(ax, [(wheel.x, wheel.y), (0.0, 0.4)])
     assert "ICR, R = 0.4 m" in words(ax)
+    arrows = [p._posA_posB for p in ax.patches if hasattr(p, "_posA_posB")][1:]
+    ways = [np.subtract(end, start) for start, end in arrows]
+    assert ways[0][0] / ways[1][0] == pytest.approx((0.4 - 0.25) / (0.4 + 0.25))  # speeds grow with the distance
+    assert [start for start, _ in arrows] == [(w.x, w.y) for w in DIFFERENTIAL.wheels]
 
 
 def test_rolling_says_what_the_wheel_says():
@@ -418,7 +422,7 @@ def test_many_aims_and_many_shots():
     assert holds(ax, shots.impact().position)
     with pytest.raises(InvalidValue, match="duration"):
         viz.plot_shots(BALL.launch(speed=3.0, angle=1.0), level=10.0)
-    with pytest.raises(InvalidValue, match="quantity"):
+    with pytest.raises(UnknownName, match="quantity"):
         viz.plot_flight(BALL.launch(speed=3.0, angle=1.0), 1.0, quantity="jerk")
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from coplanar import checks
 from coplanar.checks import Real
 from coplanar.errors import InvalidValue
 from coplanar.flight import Aim, Arc, Projectile, Shot
@@ -107,10 +108,8 @@ def plot_flight(shot: Shot, duration: Real, ax: Axes | None = None, *, quantity:
     """
     time = np.linspace(0.0, float(np.max(duration)), POINTS)
     states = shot.at(time.reshape(-1, *(1,) * np.ndim(shot.speed)))
-    if quantity == "position":
+    if checks.choice("quantity", quantity, ("position", "velocity")) == "position":
         return plot_series(time, {"x": states.x, "y": states.y}, ax, unit="position [m]")
-    if quantity != "velocity":
-        raise InvalidValue("quantity", quantity, "position or velocity")
     return plot_series(time, {"vx": states.vx, "vy": states.vy}, ax, unit="velocity [m/s]")
 
 
@@ -156,23 +155,37 @@ def _arcs(arc: Arc, shape: tuple[int, ...]) -> list[Arc]:
 
 
 def _aimed(paper: Paper, aim: Aim, *, envelope: bool, named: bool) -> None:
-    arcs = [("low", aim.low), ("high", aim.high)]
-    if not aim.hit or np.array_equal(aim.low.velocity, aim.high.velocity):
-        arcs = [("farthest" if aim.shortfall else "only", aim.low)]
-    arcs = [(name, arc) for name, arc in arcs if isfinite(arc.time)]
+    arcs = _named_arcs(aim)
     for (name, arc), colour in zip(arcs, ("first", "second"), strict=False):
-        words = "farthest shot" if name == "farthest" else "launch" if name == "only" else f"{name} arc"
-        label = f"{words}, {degrees(arc.angle):.1f} deg" if named else "_"
+        label = f"{name}, {degrees(arc.angle):.1f} deg" if named else "_"
         shot = aim.projectile.launch(velocity=arc.velocity, start=aim.start)
         plot_shot(shot, arc.time, paper.ax, color=colour, label=label)
-    limited = len(arcs) == 2 or (aim.shortfall > 0.0 and isfinite(aim.furthest))
-    if named and envelope and limited and arcs and float(aim.projectile.gravity) > 0.0:
-        side = -1.0 if aim.target[0] < aim.start[0] else 1.0
-        rise = float(np.arctan2(aim.target[1] - aim.start[1], abs(aim.target[0] - aim.start[0])))
-        plot_envelope(aim.projectile, arcs[0][1].speed, paper.ax, lowest=min(-0.1, rise - 0.1),
-                      start=(float(aim.start[0]), float(aim.start[1])), side=side)  # fmt: skip
+    if named and envelope:
+        _limit(paper, aim, len(arcs))
     if aim.shortfall > 0.0 and arcs:
         _short(paper, aim, named=named)
+
+
+def _named_arcs(aim: Aim) -> list[tuple[str, Arc]]:
+    """The launches that there are, with what they are called."""
+    if aim.shortfall > 0.0:
+        arcs = [("farthest shot", aim.low)]
+    elif np.array_equal(aim.low.velocity, aim.high.velocity):
+        arcs = [("launch", aim.low)]
+    else:
+        arcs = [("low arc", aim.low), ("high arc", aim.high)]
+    return [(name, arc) for name, arc in arcs if isfinite(arc.time)]
+
+
+def _limit(paper: Paper, aim: Aim, arcs: int) -> None:
+    """The envelope of the speed that was given, if one was: there are two arcs, or the target is beyond it."""
+    limited = arcs == 2 or (arcs == 1 and aim.shortfall > 0.0 and isfinite(aim.furthest))
+    if not limited or float(aim.projectile.gravity) == 0.0:
+        return
+    across, rise = (aim.target - aim.start).tolist()
+    lowest = min(-0.1, float(np.arctan2(rise, abs(across))) - 0.1)
+    start, side = (float(aim.start[0]), float(aim.start[1])), -1.0 if across < 0.0 else 1.0
+    plot_envelope(aim.projectile, aim.low.speed, paper.ax, lowest=max(lowest, -1.5), start=start, side=side)
 
 
 def _short(paper: Paper, aim: Aim, *, named: bool) -> None:

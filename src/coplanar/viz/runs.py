@@ -121,38 +121,43 @@ def plot_run(
     Returns:
         The figure.
     """
-    drawn = [_command(run, name) for name in run.names.commands]
-    if run.names.errors:
-        drawn.append(lambda ax: plot_errors(run, ax))
-    if run.kind == "arm":
-        drawn.insert(0, lambda ax: plot_joints(run, ax))
-    if run.kind == "flight":
-        drawn += [lambda ax: plot_columns(run, ax, names=("x", "y"), unit="position [m]"),
-                  lambda ax: plot_columns(run, ax, names=("vx", "vy"), unit="velocity [m/s]")]  # fmt: skip
     has_path = {"x", "y"} <= set(run.columns)
-    if not drawn and not has_path:
-        drawn = [lambda ax: plot_columns(run, ax)]
-    figure = new_figure(8.6 if has_path and drawn else 6.4, max(4.2, 1.6 * len(drawn))) if figure is None else figure
-    for ax, draw in zip(_places(figure, len(drawn), has_path), [_path(run, reference, point), *drawn][not has_path :],
-                        strict=True):  # fmt: skip
+    drawn = _pictures(run, has_path)
+    if figure is None:
+        figure = new_figure(8.6 if has_path and drawn else 6.4, max(4.2, 1.6 * len(drawn)))
+    places = _places(figure, len(drawn), has_path)
+    if has_path:
+        plot_track(run, places.pop(0), reference=reference, point=point)
+    for ax, draw in zip(places, drawn, strict=True):
         draw(ax)
     for ax in figure.axes:
         ax.label_outer()
     return figure
 
 
+def _pictures(run: Run, has_path: bool) -> list[Callable[[Axes], Any]]:
+    """What is drawn over time beside the path."""
+    drawn = [_command(run, name) for name in run.names.commands]
+    if run.names.errors:
+        drawn.append(lambda ax: plot_errors(run, ax))
+    if run.kind == "arm":
+        drawn.insert(0, lambda ax: plot_joints(run, ax))
+    if run.kind == "flight":
+        drawn += [
+            lambda ax: plot_columns(run, ax, names=("x", "y"), unit="position [m]"),
+            lambda ax: plot_columns(run, ax, names=("vx", "vy"), unit="velocity [m/s]"),
+        ]
+    return drawn if drawn or has_path else [lambda ax: plot_columns(run, ax)]
+
+
 def _command(run: Run, name: str) -> Callable[[Axes], Any]:
     return lambda ax: plot_commands(run, ax, names=(name,))
-
-
-def _path(run: Run, reference: Any, point: Any) -> Callable[[Axes], Any]:
-    return lambda ax: plot_track(run, ax, reference=reference, point=point)
 
 
 def _places(figure: Any, count: int, has_path: bool) -> list[Axes]:
     """Axes for the path at the left and for ``count`` pictures above one another."""
     if not (has_path and count):
-        return _column(figure, max(1, count))
+        return _column(figure, count or 1)
     left, right = figure.subfigures(1, 2, width_ratios=(1.15, 1.0))
     for part in (left, right):
         part.set_facecolor(figure.get_facecolor())
