@@ -296,6 +296,13 @@ def test_many_targets_are_all_drawn():
     assert len(words(ax)) == 1
 
 
+def test_an_arm_without_a_bound_has_no_workspace_behind_it():
+    answer = Arm((1.0, 0.3), joints="RP").inverse((3.0, 1.0))
+    ax = viz.plot_reach(answer)
+    assert legend(ax) == ["target"]
+    assert holds(ax, answer.chain.points(answer.q))
+
+
 def test_wheels_stand_where_the_table_says():
     ax = viz.plot_base(MECANUM)
     tyres = [p.get_path().vertices for p in ax.patches if len(p.get_path().vertices) == 5][1::2]
@@ -383,6 +390,9 @@ def test_velocities_are_the_motions():
     v, omega = lines(viz.plot_velocities(PROGRAM))
     assert np.array_equal(v, np.column_stack([t, PROGRAM.twist(t).vx]))
     assert np.array_equal(omega[:, 1], PROGRAM.twist(t).omega)
+    robots = Program(Segment([[1.0, 1.0], [1.0, 2.0]], [[0.0, 1.0], [0.5, -1.0]], duration=1.0))
+    assert lines(viz.plot_velocities(robots))[1][-1, 1] == 2.0
+    assert len(viz.plot_velocities(Segment([1.0, 2.0], 0.0, duration=[1.0, 2.0])).lines) == 4
     assert viz.plot_velocities(HOLONOMIC).get_ylabel() == "vx, vy [m/s], omega [rad/s]"
     move = Trapezoid(3.0, 1.0, 1.0)
     assert lines(viz.plot_velocities(move))[0][:, 1].max() == pytest.approx(move.peak)

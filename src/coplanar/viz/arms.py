@@ -119,10 +119,10 @@ def plot_reach(answer: Solution, ax: Axes | None = None, *, workspace: bool = Tr
     Args:
         answer: Of ``Arm.inverse``, for one target or many.
         ax: Where to draw; a new figure if None.
-        workspace: Whether what the arm can reach is drawn behind it.
+        workspace: Whether what the arm can reach is drawn behind it, where that has a bound.
     """
     paper = Paper.plane(ax)
-    if workspace:
+    if workspace and _has_bounds(answer.chain):
         plot_workspace(answer.chain, paper.ax)
     targets = answer.target.reshape(-1, 2)
     many = len(targets) > 1
@@ -138,6 +138,12 @@ def plot_reach(answer: Solution, ax: Axes | None = None, *, workspace: bool = Tr
         paper.title(textwrap.fill(answer.status.value, 62))
     paper.legend()
     return paper.ax
+
+
+def _has_bounds(chain: Chain) -> bool:
+    """Whether every slide has two limits."""
+    slides = np.array(list(chain.joints)) == "P"
+    return bool(np.isfinite([chain.lower[slides], chain.upper[slides]]).all())
 
 
 def _branches(paper: Paper, chain: Chain, branches: np.ndarray, allowed: np.ndarray, q: np.ndarray) -> None:

@@ -126,10 +126,11 @@ def plot_velocities(motion: Velocities, ax: Axes | None = None, *, count: int = 
     elif isinstance(motion, Trapezoid):
         columns, unit = {"velocity": motion.velocity(_column(t, motion.peak))}, "velocity [m/s]"
     else:
-        twist = motion.twist(_column(t, motion.duration))
+        shape = motion.frames.shape[:-1] if isinstance(motion, Program) else motion.shape
+        twist = motion.twist(_column(t, np.empty(shape)))
         columns = {"v": twist.vx, "omega": twist.omega}
-    shape = np.broadcast_shapes(*(np.shape(c) for c in columns.values()))
-    return plot_series(t, {name: np.broadcast_to(c, shape) for name, c in columns.items()}, ax, unit=unit)
+    whole = np.broadcast_shapes(*(np.shape(c) for c in columns.values()))
+    return plot_series(t, {name: np.broadcast_to(c, whole) for name, c in columns.items()}, ax, unit=unit)
 
 
 def plot_ramp(ramp: Ramp, ax: Axes | None = None, *, names: Sequence[str] = (), count: int = 401) -> Axes:

@@ -11,7 +11,7 @@ from coplanar.viz.axes import disc
 from coplanar.viz.paper import Axes, Paper
 from coplanar.wheels import Icr, RollingWheel, Wheel, WheeledBase
 
-TREAD = 0.42  # width of a drawn wheel over its diameter
+BREADTH = 0.42  # width of a drawn wheel over its diameter
 TURNS = 1e-6  # of the speed: a slower turn is drawn as a translation
 
 
@@ -133,7 +133,7 @@ def _drive(paper: Paper, wheel: Wheel) -> None:
 
 
 def _wheel(paper: Paper, wheel: Wheel, name: str) -> None:
-    r, width = wheel.radius, TREAD * wheel.radius
+    r, width = wheel.radius, BREADTH * wheel.radius
     stands = Pose(wheel.x, wheel.y, wheel.drive_angle)
     corners = stands @ np.array([(r, width), (-r, width), (-r, -width), (r, -width)])
     paper.region(corners, colour="first", alpha=0.85 if wheel.is_ordinary else 0.3, edge=1.4)
