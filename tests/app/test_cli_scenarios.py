@@ -150,7 +150,24 @@ def test_the_schema_is_json_schema(call):
     jsonschema.Draft202012Validator.check_schema(told(call("schema")))
 
 
-WORDS = "--set --json -o x arm-reach target=1 --to = --vary a=1:2:3 target.0=0:1:2 -j 1 --samples 2 --help".split()
+WORDS = [
+    "--set",
+    "--json",
+    "-o",
+    "x",
+    "arm-reach",
+    "target=1",
+    "--to",
+    "=",
+    "--vary",
+    "a=1:2:3",
+    "target.0=0:1:2",
+    "-j",
+    "1",
+    "--samples",
+    "2",
+    "--help",
+]
 
 
 @settings(deadline=None, max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
