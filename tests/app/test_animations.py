@@ -18,6 +18,7 @@ from PIL import Image
 
 from coplanar import Arm, Circle, Pose, Projectile, Run, Segment, trace, viz
 from coplanar.errors import InvalidShape, InvalidValue, MissingExtra, NoSolution, UnknownName
+from coplanar.logs import read_log
 from coplanar.viz import animation
 from coplanar.viz.layers import KINDS
 from coplanar.viz.renderer import SceneRenderer
@@ -156,7 +157,8 @@ def test_what_is_interrupted_leaves_nothing_and_keeps_what_was(tmp_path, suffix,
     assert [(p.name, p.read_text()) for p in tmp_path.iterdir()] == [(target.name, "the old one")]
 
 
-def test_what_is_refused(tmp_path):
+def test_what_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(animation, "_ffmpeg", lambda: "ffmpeg")
     run = driven()
     for path in ("run.avi", "run"):
         with pytest.raises(InvalidValue, match=r"\.gif, \.mp4 or \.html"):
@@ -168,8 +170,9 @@ def test_what_is_refused(tmp_path):
         viz.animate(run, tmp_path / "run.gif", theme="sepia")
     with pytest.raises(UnknownName, match="theme"):
         viz.animate(run, tmp_path / "run.html", theme="sepia")
-    with pytest.raises(OSError, match="No such file"):
-        viz.animate(run, tmp_path / "nowhere" / "run.gif", **SMALL)
+    for suffix in animation.SUFFIXES:
+        with pytest.raises(OSError, match="No such file"):
+            viz.animate(run, tmp_path / "nowhere" / f"run{suffix}", **SMALL)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -338,7 +341,10 @@ def test_saving_by_suffix(tmp_path):
     run = driven()
     back = Run.from_csv(run.save(tmp_path / "run.csv"), "body")
     assert np.array_equal(back["x"], run["x"])
-    with pytest.raises(InvalidValue, match=r"\.csv"):
+    back = read_log(run.save(tmp_path / "run.json"))
+    assert back.kind == "body"
+    assert np.array_equal(back["theta"], run["theta"])
+    with pytest.raises(UnknownName, match="xlsx"):
         run.save(tmp_path / "run.xlsx")
 
 

@@ -1,7 +1,7 @@
 """How a run shows itself: figure, animation, notebook.
 
-Pictures are above runs. What is here reaches up when it is called, as ``coplanar`` itself imports on demand, so that a
-run costs no Matplotlib until somebody looks at it.
+Pictures and logs are above runs. What is here reaches up when it is called, as ``coplanar`` itself imports on demand,
+so that a run costs no Matplotlib until somebody looks at it.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import os
 from pathlib import Path
 from typing import Any
 
-from coplanar.errors import InvalidInput, InvalidValue
+from coplanar.errors import InvalidInput
 
 
 class Shown:
@@ -46,18 +46,17 @@ class Shown:
         return viz.Player(viz.scene_of_run(self, **options)) if path is None else viz.animate(self, path, **options)
 
     def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write the run as what the suffix says: .csv.
+        """Write the run as what the suffix says: .csv, .json, .wpilog, .mcap or .parquet; see ``coplanar.logs``.
 
         Returns:
             Where it was written.
 
         Raises:
-            InvalidValue: If the suffix is another.
-            InvalidShape: If it holds a batch.
+            UnknownName: If the suffix is another.
+            InvalidShape: If the format holds one robot and this is a batch.
+            MissingExtra: If the format needs a package that is not installed.
         """
-        if Path(path).suffix.lower() != ".csv":
-            raise InvalidValue("path", str(path), "a name that ends in .csv")
-        written: Path = self.to_csv(path)  # type: ignore[attr-defined]
+        written: Path = importlib.import_module("coplanar.logs").write_log(self, path)
         return written
 
     def _repr_html_(self) -> str | None:

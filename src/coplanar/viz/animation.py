@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import importlib
 import os
-import secrets
 import shutil
 import subprocess
 from collections.abc import Callable, Iterator
@@ -17,6 +16,7 @@ import numpy as np
 from coplanar import checks
 from coplanar.errors import InvalidValue, MissingExtra, NoSolution
 from coplanar.run import Run
+from coplanar.run.files import written_whole
 from coplanar.viz.player import Player
 from coplanar.viz.renderer import SceneRenderer
 from coplanar.viz.scene import Scene
@@ -123,13 +123,8 @@ def _frames(renderer: SceneRenderer, timing: Timing, progress: Progress | None) 
 
 
 def _whole(target: Path, write: Callable[[Path], None]) -> Path:
-    """What is written beside the target takes its place at the end; what is not finished goes."""
-    part = target.with_name(f".{target.stem}.{secrets.token_hex(4)}.part{target.suffix}")
-    try:
+    with written_whole(target) as part:
         write(part)
-        os.replace(part, target)
-    finally:
-        part.unlink(missing_ok=True)
     return target
 
 
@@ -175,11 +170,12 @@ def _ffmpeg() -> str:
 
 
 def _write_mp4(part: Path, ffmpeg: str, frames: Iterator[np.ndarray], timing: Timing, size: tuple[int, int]) -> None:
-    """Frames through a pipe to ffmpeg."""
+    """Frames through a pipe to ffmpeg, into a file that could be made."""
+    part.touch(exist_ok=False)
     command = [
         ffmpeg, "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{size[0]}x{size[1]}",
         "-framerate", f"{len(timing.times) / timing.duration:.9g}", "-i", "-", "-an", "-c:v", "libx264", "-crf", "20",
-        "-preset", "medium", "-pix_fmt", "yuv420p", "-movflags", "+faststart", str(part),
+        "-preset", "medium", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4", str(part),
     ]  # fmt: skip
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
         pipe, complaints = cast(IO[bytes], process.stdin), cast(IO[bytes], process.stderr)
