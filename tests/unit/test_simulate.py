@@ -228,3 +228,15 @@ def test_a_large_batch_in_the_compiled_loop():
     for i in (0, 100, 209):
         alone = simulate(Unicycle(), PointTracker((0.1, 0.0), float(kp[i])), ASTROID, step=0.01, duration=1.0)
         np.testing.assert_allclose(many.robot(i).states, alone.states, atol=1e-12)
+
+
+def test_a_seed_for_each_robot_draws_what_it_would_alone():
+    many = Noise(position=[0.1, 0.2, 0.1], v=0.3, seed=[4, 7, 4]).draw(20, (3,))
+    for k, (size, seed) in enumerate(((0.1, 4), (0.2, 7), (0.1, 4))):
+        np.testing.assert_array_equal(many[..., k], Noise(position=size, v=0.3, seed=seed).draw(20, ()))
+
+
+@pytest.mark.parametrize("seed", [-1, 1.5, [1, -2], "a", True])
+def test_a_seed_that_is_none_is_refused(seed):
+    with pytest.raises(InvalidValue, match="seed"):
+        Noise(seed=seed)

@@ -32,7 +32,7 @@ from coplanar.engine.arrays import (
     turn_remainder,
     where,
 )
-from coplanar.engine.evaluator import Evaluator, can_compile, evaluator
+from coplanar.engine.evaluator import Evaluator, can_compile, evaluator, reproducible
 from coplanar.engine.foreign import components, is_foreign, namespace_of, stack
 from coplanar.engine.scan import Scan
 
@@ -65,6 +65,7 @@ __all__ = [
     "minimum",
     "namespace_of",
     "nearest",
+    "reproducible",
     "sin",
     "sinc",
     "sincos",

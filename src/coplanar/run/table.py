@@ -19,6 +19,7 @@ from coplanar.checks import ArrayLike
 from coplanar.engine import stack
 from coplanar.errors import InvalidShape, InvalidValue, MissingExtra, UnknownName
 from coplanar.run.files import read_table, write_table
+from coplanar.run.showing import Shown
 from coplanar.run.summary import summary_of
 from coplanar.se2 import Pose
 
@@ -63,7 +64,7 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Run:
+class Run(Shown):
     """Columns by name over one monotone column, ``t`` unless told otherwise.
 
     A column has shape (rows,), or (rows, ...) for a batch of robots that share the time.

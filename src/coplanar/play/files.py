@@ -1,0 +1,43 @@
+"""The files of the page, read once: no path that comes over the wire ever reaches the disk."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib import resources
+
+from coplanar.viz.web import palette_css
+
+_TYPES = {"html": "text/html", "css": "text/css", "js": "text/javascript", "svg": "image/svg+xml", "txt": "text/plain"}
+_OWN = (
+    "index.html", "page.css", "icon.svg", "theme.js", "app.js",
+)  # fmt: skip
+_SHARED = ("draw.js", "player.js", "player.css")
+_VENDORED = ("uPlot.esm.js", "uPlot.min.css", "uPlot.LICENSE.txt")
+
+
+@dataclass(frozen=True, slots=True)
+class File:
+    """What is sent for one path."""
+
+    content: bytes
+    media_type: str
+
+
+def files() -> dict[str, File]:
+    """Every path that is answered, and with what.
+
+    Example:
+        >>> sorted(files())[:2]
+        ['/', '/app.js']
+    """
+    play, web = resources.files("coplanar.play") / "static", resources.files("coplanar.viz") / "web"
+    listed = {name: play / name for name in _OWN} | {name: web / name for name in _SHARED}
+    listed |= {name: play / "vendor" / name for name in _VENDORED}
+    found = {f"/{name}": File(path.read_bytes(), _type(name)) for name, path in listed.items()}
+    found["/palette.css"] = File(palette_css().encode(), _TYPES["css"])
+    found["/"] = found.pop("/index.html")
+    return found
+
+
+def _type(name: str) -> str:
+    return _TYPES[name.rpartition(".")[2]]
