@@ -108,6 +108,37 @@ def sum_of(typing, columns, start, i):
 
 
 @intrinsic
+def total_of(typing, row):
+    """Sum of a law's answer, a number or a tuple: NaN if an entry is NaN (or infinities cancel)."""
+    many = isinstance(row, types.BaseTuple)
+
+    def generate(context, builder, signature, arguments):
+        (given,) = arguments
+        total = builder.extract_value(given, 0) if many else given
+        for k in range(1, len(row) if many else 1):
+            total = builder.fadd(total, builder.extract_value(given, k))
+        return total
+
+    return (row[0] if many else row)(row), generate
+
+
+@intrinsic(prefer_literal=True)
+def spill(typing, outs, table, start, rows, pattern):
+    """Copy the first rows of a table's columns to ``start`` in the outputs; bit k of the pattern asks for column k."""
+    chosen = [k for k in range(len(outs)) if pattern.literal_value >> k & 1]
+
+    def generate(context, builder, signature, arguments):
+        columns, values, place, count, _ = arguments
+        for k in chosen:
+            target = _pointer(context, builder, signature.args[0][k], builder.extract_value(columns, k), place)
+            source = _entry(context, builder, (values, place.type(k), place.type(0)), signature.args[1], 0)
+            cgutils.raw_memcpy(builder, target, source, count, 8)
+        return context.get_dummy_value()
+
+    return types.void(outs, table, types.intp, types.intp, pattern), generate
+
+
+@intrinsic
 def get(typing, table, column, i):
     """Entry ``i`` of a column of a table of shape (columns, ``WIDTH``)."""
 

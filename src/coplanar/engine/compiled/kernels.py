@@ -15,6 +15,7 @@ from coplanar.engine.arrays import Integral
 from coplanar.engine.binding import bind
 from coplanar.engine.compiled import loops, scans
 from coplanar.engine.compiled.cache import in_folder
+from coplanar.engine.compiled.columns import WIDTH
 from coplanar.engine.compiled.doubt import shows_every_nan
 from coplanar.engine.compiled.elementary import FLAGS, inline
 from coplanar.engine.compiled.primitives import FAST, SAFE
@@ -39,7 +40,7 @@ class Loops:
 
     def loop(self, kind, arguments, work, rows, constants=()):
         """Threads where they pay and are free; a forked child never touches the parent's threads."""
-        threads_pay = work >= PARALLEL_FROM and rows >= 2 * scans.BLOCK and os.getpid() == _process
+        threads_pay = work >= PARALLEL_FROM and rows >= 2 * WIDTH and os.getpid() == _process
         if threads_pay and _threads.acquire(blocking=False):
             try:
                 self._call(kind, f"{kind}_parallel", constants, arguments)
@@ -76,7 +77,8 @@ class Kernel(Loops):
             initial: Arrays of one entry or of as many as there are rows.
             inputs: Arrays of ``steps`` entries, or of ``steps`` times ``rows``.
             parameters: Arrays like ``initial``.
-            outputs: Flat arrays of ``rows`` entries for the end, or of (steps + 1) times ``rows``.
+            outputs: For every entry of the state a flat array of ``rows`` entries for the end, or of (steps + 1) times
+                ``rows`` for every step.
             size: Steps and rows.
         """
         count, width = size
@@ -89,7 +91,9 @@ class Kernel(Loops):
         arguments = (
             begin, walk, shared, own, tuple(c for c, _ in held), tuple(s for _, s in held), outputs, (count, width)
         )  # fmt: skip
-        constants = (("KEEP", outputs[0].size > width), ("PATTERN", pattern))
+        kept = sum(1 << k for k, out in enumerate(outputs) if out.size > width)
+        ends = (1 << len(outputs)) - 1 - kept
+        constants = (("STATES", len(outputs)), ("PATTERN", pattern), ("KEPT", kept), ("ENDS", ends))
         self.loop("scan", arguments, count * width, width, constants)
 
     def run(self, inputs, outputs, shape):
