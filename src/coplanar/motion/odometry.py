@@ -8,18 +8,18 @@ import numpy as np
 
 from coplanar import checks
 from coplanar.checks import ArrayLike, Real
-from coplanar.engine import evaluator
+from coplanar.engine import Walk, evaluator, running_sum
 from coplanar.errors import InvalidShape, InvalidValue
 from coplanar.laws import motion as laws
 from coplanar.laws import se2
 from coplanar.motion.program import held_samples
-from coplanar.motion.sequence import along, before_last_axis, running_sum
+from coplanar.motion.sequence import along, before_last_axis
 from coplanar.se2 import Displacement, Pose
 from coplanar.se2.triple import matrix_of
 
 _increment_variances = evaluator(laws.increment_variances)
-_step = evaluator(se2.step)
 _step_jacobian = evaluator(laws.step_jacobian)
+_walk = Walk(se2.step)
 _wheel_increments = evaluator(laws.wheel_increments)
 
 
@@ -102,7 +102,7 @@ class Odometry:
         dt = np.diff(times)
         forward, turn = (held_samples(name, value, times.size) for name, value in (("v", v), ("omega", omega)))
         checks.broadcast(v=forward, omega=turn)
-        return cls(Displacement(forward * dt, 0.0, turn * dt))
+        return cls(_measured(forward * dt, turn * dt))
 
     @classmethod
     def from_wheels(cls, left: ArrayLike, right: ArrayLike, *, track: ArrayLike) -> Odometry:
@@ -125,7 +125,7 @@ class Odometry:
         ways["track"] = checks.positive("track", track)
         checks.broadcast(**ways)
         distance, turn = _wheel_increments(*ways.values())
-        return cls(Displacement(distance, 0.0, turn))
+        return cls(_measured(distance, turn))
 
     def path(self, start: Pose) -> Pose:
         """The pose before each tick and after the last one, shape (..., n + 1), with no loop over ticks.
@@ -136,10 +136,16 @@ class Odometry:
             >>> Odometry(Displacement([1.0, 1.0], 0.0, 0.0)).path(Pose(1.0, 2.0, 0.0)).y.tolist()
             [2.0, 2.0, 2.0]
         """
-        x, y, theta = map(before_last_axis, start.parts)
-        heading = theta + running_sum(self.increments.dtheta)
-        dx, dy, _ = _step(0.0, 0.0, heading[..., :-1], *self.increments.parts)
-        return Pose._of(x + running_sum(dx), y + running_sum(dy), heading)
+        return Pose._of(*_walk(start.parts, self.increments.parts))
+
+    def end(self, start: Pose) -> Pose:
+        """The pose after the last tick, the last one of ``path``; the others take no memory.
+
+        Example:
+            >>> Odometry(Displacement([1.0, 1.0], 0.0, 0.0)).end(Pose(1.0, 2.0, 0.0))
+            Pose(x=3.0, y=2.0, theta=0.0)
+        """
+        return Pose._of(*_walk(start.parts, self.increments.parts, keep="end"))
 
     def jacobians(self, start: Pose) -> tuple[np.ndarray, np.ndarray]:
         """How the pose after each tick moves with the pose before it, F, and with its increment, G.
@@ -190,6 +196,14 @@ class Odometry:
         first = np.broadcast_to(P[..., None, :, :], (*np.broadcast_shapes(P.shape[:-2], added.shape[:-3]), 1, 3, 3))
         about_start = np.cumsum(np.concatenate((first, np.broadcast_to(added, _like(first, added))), axis=-3), axis=-3)
         return carried(lever(x, y), about_start)
+
+
+def _measured(distance: Real, turn: Real) -> Displacement:
+    """A way straight ahead and a turn, from arrays that nobody else holds: read-only from here, and so not copied."""
+    for part in (distance, turn):
+        if isinstance(part, np.ndarray):
+            part.flags.writeable = False
+    return Displacement(distance, 0.0, turn)
 
 
 def lever(dx: Real, dy: Real) -> np.ndarray:

@@ -294,4 +294,4 @@ class _WhenAsked:
         self._slot.__set__(run, value)
 
 
-setattr(Run, "warnings", _WhenAsked(Run.warnings))  # noqa: B010 (to a type checker it stays the field that it is)
+setattr(Run, "warnings", _WhenAsked(vars(Run)["warnings"]))  # noqa: B010 (to a type checker it stays the field that it is)

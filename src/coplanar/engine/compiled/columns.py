@@ -54,6 +54,24 @@ def gather(typing, columns, steps, start, i):
     return answer(columns, steps, types.intp, types.intp), generate
 
 
+@intrinsic
+def reach(typing, columns, strides, paces, row, begin, i):
+    """Entry ``row * stride + begin * pace + i`` of the columns, each with its own stride and pace, as a tuple."""
+    answer = types.Tuple([column.dtype for column in columns])
+
+    def generate(context, builder, signature, arguments):
+        table, by_row, by_step, which, first, index = arguments
+        places = []
+        for k in range(len(columns)):
+            base = builder.mul(which, builder.extract_value(by_row, k))
+            base = builder.add(base, builder.mul(first, builder.extract_value(by_step, k)))
+            places.append(builder.add(base, index))
+        values = _read(context, builder, signature.args[0], table, places)
+        return context.make_tuple(builder, signature.return_type, values)
+
+    return answer(columns, strides, paces, types.intp, types.intp, types.intp), generate
+
+
 @intrinsic(prefer_literal=True)
 def merge(typing, shared, own, pattern):
     """One tuple out of two: bit k of the pattern says that entry k comes from ``own``."""

@@ -13,13 +13,14 @@ from numba import njit
 
 from coplanar.engine.arrays import Integral
 from coplanar.engine.binding import bind
-from coplanar.engine.compiled import loops, scans
+from coplanar.engine.compiled import loops, scans, walks
 from coplanar.engine.compiled.cache import in_folder
 from coplanar.engine.compiled.columns import WIDTH
 from coplanar.engine.compiled.doubt import shows_every_nan
 from coplanar.engine.compiled.elementary import FLAGS, inline
 from coplanar.engine.compiled.primitives import FAST, SAFE
 
+VECTOR = 8  # numbers in the widest vectors
 PARALLEL_FROM = 200_000  # rows; below, starting threads costs more than they save
 
 _fast_laws: dict = {}
@@ -65,10 +66,10 @@ class Loops:
 
 
 class Kernel(Loops):
-    """A law inside compiled loops: ``run`` over rows, ``scan`` over steps of rows."""
+    """A law inside compiled loops: ``run`` over rows, ``scan`` over steps of rows, ``walk`` along rows of steps."""
 
     def __init__(self, law) -> None:
-        super().__init__({"law": law}, {"rows": loops, "scan": scans})
+        super().__init__({"law": law}, {"rows": loops, "scan": scans, "walk": walks})
 
     def scan(self, initial, inputs, parameters, outputs, size):
         """Carry the state from step to step.
@@ -95,6 +96,28 @@ class Kernel(Loops):
         ends = (1 << len(outputs)) - 1 - kept
         constants = (("STATES", len(outputs)), ("PATTERN", pattern), ("KEPT", kept), ("ENDS", ends))
         self.loop("scan", arguments, count * width, width, constants)
+
+    def walk(self, begin, inputs, outputs, size):
+        """Carry poses along rows of steps.
+
+        Args:
+            begin: x, y and heading of the first poses: arrays of one entry or of as many as there are rows.
+            inputs: Arrays of 1, ``steps``, or ``rows`` times ``steps`` entries.
+            outputs: Flat arrays of ``rows`` entries for the end, or of ``rows`` times (steps + 1).
+            size: Rows and steps.
+        """
+        rows, steps = size
+        group = _group(steps)
+        first, hold = zip(*(_column(a, (rows,), rows) for a in begin), strict=True)
+        paces = tuple(int(array.size > 1) for array in inputs)
+        strides = tuple(steps if array.size > steps else 0 for array in inputs)
+        ins = tuple(
+            _read_only(a if stride else np.tile(a, group) if pace else _spread(a, WIDTH))
+            for a, stride, pace in zip(inputs, strides, paces, strict=True)
+        )
+        constants = (("KEEP", outputs[0].size > rows),)
+        self.loop("walk", (first, hold, ins, strides, paces, outputs, (*size, group)), rows * steps, WIDTH * rows,
+                  constants)  # fmt: skip
 
     def run(self, inputs, outputs, shape):
         """Evaluate the law on every row of the broadcast inputs.
@@ -131,16 +154,28 @@ class Kernel(Loops):
             self.loop("rows", (ins, steps, outs, stop - start), stop - start, stop - start)
 
 
+def _group(steps):
+    """How many whole rows of steps make a tile: a count of steps that fills vectors, if one does."""
+    most = max(1, WIDTH // max(1, steps))
+    even = VECTOR // math.gcd(steps, VECTOR)
+    return most - most % even if most >= even else most
+
+
 def _column(array, shape, rows):
     """The array as a flat column and its step, or None where it has to be spread first.
 
     All columns are read-only, so that a loop is compiled once whether or not the caller's arrays are.
     """
     if array.size == 1:
-        return _read_only(np.full(min(rows, loops.BLOCK), array.item(), array.dtype)), 0
+        return _read_only(_spread(array, min(rows, loops.BLOCK))), 0
     if array.shape == shape and array.flags.c_contiguous and array.flags.aligned:
         return _read_only(array.reshape(-1)), 1
     return None, 1
+
+
+def _spread(array, count):
+    """An array's one entry so many times."""
+    return np.full(count, array.item(), array.dtype)
 
 
 def _read_only(array):
