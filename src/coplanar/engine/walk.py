@@ -96,7 +96,7 @@ def _flat(array: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
 
 def _along(array: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
     """One number, one row of steps, or all rows."""
-    if not any(stride for stride, length in zip(array.strides, array.shape, strict=True) if length > 1):
+    if not any(s for s, n in zip(array.strides, array.shape, strict=True) if n > 1):
         return np.array([array.flat[0]])
     if array.size == shape[-1] == array.shape[-1]:
         return np.ascontiguousarray(array.reshape(-1))

@@ -21,6 +21,7 @@ from coplanar.engine.compiled.elementary import FLAGS, inline
 from coplanar.engine.compiled.primitives import FAST, SAFE
 
 VECTOR = 8  # numbers in the widest vectors
+SPREAD_ROWS = 1 << 18  # rows that are laid out at a time where an array does not lie as the loop reads it
 PARALLEL_FROM = 200_000  # rows; below, starting threads costs more than they save
 
 _fast_laws: dict = {}
@@ -141,17 +142,29 @@ class Kernel(Loops):
             ins, steps = zip(*ready, strict=True)
             self.loop("rows", (ins, steps, columns, rows), rows, rows)
             return
-        whole = [np.broadcast_to(a, shape).flat for a in inputs]
+        whole = [np.broadcast_to(a, shape) for a in inputs]
         steps = tuple(step for _, step in ready)
-        span = 16 * loops.BLOCK
-        for start in range(0, rows, span):
-            stop = min(start + span, rows)
+        start = 0
+        for index in _slabs(shape, SPREAD_ROWS):
+            pieces = [array[index] for array in whole]
+            stop = start + pieces[0].size
             ins = tuple(
-                _read_only(flat[start:stop]) if column is None else column[start:stop] if step else column
-                for (column, step), flat in zip(ready, whole, strict=True)
-            )
+                _read_only(np.ascontiguousarray(piece).reshape(-1)) if column is None
+                else column[start:stop] if step else column
+                for (column, step), piece in zip(ready, pieces, strict=True)
+            )  # fmt: skip
             outs = tuple(c[start:stop] for c in columns)
             self.loop("rows", (ins, steps, outs, stop - start), stop - start, stop - start)
+            start = stop
+
+
+def _slabs(shape, most):
+    """Indices that cut an array into pieces of ``most`` rows or fewer, one after another as they lie in memory."""
+    axis = next(k for k in range(len(shape)) if math.prod(shape[k + 1 :]) <= most)
+    length = most // math.prod(shape[axis + 1 :])
+    for outer in np.ndindex(shape[:axis]):
+        for first in range(0, shape[axis], length):
+            yield (*outer, slice(first, first + length))
 
 
 def _group(steps):
@@ -166,7 +179,7 @@ def _column(array, shape, rows):
 
     All columns are read-only, so that a loop is compiled once whether or not the caller's arrays are.
     """
-    if array.size == 1:
+    if array.size and not any(s for s, n in zip(array.strides, array.shape, strict=True) if n > 1):
         return _read_only(_spread(array, min(rows, loops.BLOCK))), 0
     if array.shape == shape and array.flags.c_contiguous and array.flags.aligned:
         return _read_only(array.reshape(-1)), 1
@@ -174,8 +187,8 @@ def _column(array, shape, rows):
 
 
 def _spread(array, count):
-    """An array's one entry so many times."""
-    return np.full(count, array.item(), array.dtype)
+    """The one number of an array so many times."""
+    return np.full(count, array.flat[0], array.dtype)
 
 
 def _read_only(array):
