@@ -143,19 +143,26 @@ class Kernel(Loops):
             self.loop("rows", (ins, steps, columns, rows), rows, rows)
             return
         whole = [np.broadcast_to(a, shape) for a in inputs]
+        room = [None if column is not None else np.empty(min(rows, SPREAD_ROWS), a.dtype.newbyteorder("="))
+                for (column, _), a in zip(ready, inputs, strict=True)]  # fmt: skip
         steps = tuple(step for _, step in ready)
         start = 0
         for index in _slabs(shape, SPREAD_ROWS):
-            pieces = [array[index] for array in whole]
-            stop = start + pieces[0].size
+            stop = start + whole[0][index].size
             ins = tuple(
-                _read_only(np.ascontiguousarray(piece).reshape(-1)) if column is None
-                else column[start:stop] if step else column
-                for (column, step), piece in zip(ready, pieces, strict=True)
-            )  # fmt: skip
+                _laid_out(array[index], space) if column is None else column[start:stop] if step else column
+                for (column, step), array, space in zip(ready, whole, room, strict=True)
+            )
             outs = tuple(c[start:stop] for c in columns)
             self.loop("rows", (ins, steps, outs, stop - start), stop - start, stop - start)
             start = stop
+
+
+def _laid_out(piece, space):
+    """The piece in a row, in a space that it may fill."""
+    column = space[: piece.size]
+    column.reshape(piece.shape)[...] = piece
+    return _read_only(column)
 
 
 def _slabs(shape, most):
