@@ -104,7 +104,7 @@ class Evaluator:
         outs = tuple(np.empty(shape, dtype) for _ in range(self._results)) if out is None else out
         if out is not None:
             _check_out(outs, self._results, shape, dtype)
-        self.kernel().run(inputs, outs, shape)
+        self.kernel().run(inputs, outs, shape, fresh=out is None)
         return outs if self._returns_tuple else outs[0]
 
     def into(self, out: tuple[np.ndarray, ...], *args: Any) -> None:

@@ -120,14 +120,19 @@ class Kernel(Loops):
         self.loop("walk", (first, hold, ins, strides, paces, outputs, (*size, group)), rows * steps, WIDTH * rows,
                   constants)  # fmt: skip
 
-    def run(self, inputs, outputs, shape):
+    def run(self, inputs, outputs, shape, *, fresh=False):
         """Evaluate the law on every row of the broadcast inputs.
 
         Args:
             inputs: Arrays of one float type that broadcast to ``shape``.
             outputs: Arrays of ``shape`` and that type, which may lie in memory as they like, over the inputs too.
             shape: The common shape.
+            fresh: Whether nobody else holds the outputs.
         """
+        if fresh:
+            self._fill([_column(a, shape, math.prod(shape)) for a in inputs], inputs,
+                       tuple(out.reshape(-1) for out in outputs), shape)  # fmt: skip
+            return
         rows = math.prod(shape)
         fit = [_may_be_written(out, inputs) for out in outputs]
         targets = [out if fits else np.empty(shape, out.dtype) for out, fits in zip(outputs, fit, strict=True)]
@@ -186,10 +191,10 @@ def _column(array, shape, rows):
 
     All columns are read-only, so that a loop is compiled once whether or not the caller's arrays are.
     """
+    if array.shape == shape and array.flags.c_contiguous and array.flags.aligned:
+        return _read_only(array if array.ndim == 1 else array.reshape(-1)), 1
     if array.size and not any(s for s, n in zip(array.strides, array.shape, strict=True) if n > 1):
         return _read_only(_spread(array, min(rows, loops.BLOCK))), 0
-    if array.shape == shape and array.flags.c_contiguous and array.flags.aligned:
-        return _read_only(array.reshape(-1)), 1
     return None, 1
 
 
