@@ -18,7 +18,8 @@ from coplanar.engine.compiled.cache import in_folder
 from coplanar.engine.compiled.columns import WIDTH
 from coplanar.engine.compiled.doubt import shows_every_nan
 from coplanar.engine.compiled.elementary import FLAGS, inline
-from coplanar.engine.compiled.primitives import FAST, SAFE
+from coplanar.engine.compiled.primitives import FAST, SAFE, SINGLE
+from coplanar.engine.compiled.single import in_single
 
 VECTOR = 8  # numbers in the widest vectors
 SPREAD_ROWS = 1 << 18  # rows that are laid out at a time where an array does not lie as the loop reads it
@@ -26,6 +27,7 @@ PARALLEL_FROM = 200_000  # rows; below, starting threads costs more than they sa
 
 _fast_laws: dict = {}
 _safe_laws: dict = {}
+_single_laws: dict = {}
 _threads = threading.Lock()
 _process = os.getpid()
 
@@ -143,9 +145,10 @@ class Kernel(Loops):
 
     def _fill(self, ready, inputs, columns, shape):
         rows = math.prod(shape)
+        constants = (("SINGLE", True),) if inputs[0].dtype == np.float32 else ()
         if all(column is not None for column, _ in ready):
             ins, steps = zip(*ready, strict=True)
-            self.loop("rows", (ins, steps, columns, rows), rows, rows)
+            self.loop("rows", (ins, steps, columns, rows), rows, rows, constants)
             return
         whole = [np.broadcast_to(a, shape) for a in inputs]
         room = [None if column is not None else np.empty(min(rows, SPREAD_ROWS), a.dtype.newbyteorder("="))
@@ -159,7 +162,7 @@ class Kernel(Loops):
                 for (column, step), array, space in zip(ready, whole, room, strict=True)
             )
             outs = tuple(c[start:stop] for c in columns)
-            self.loop("rows", (ins, steps, outs, stop - start), stop - start, stop - start)
+            self.loop("rows", (ins, steps, outs, stop - start), stop - start, stop - start, constants)
             start = stop
 
 
@@ -223,7 +226,7 @@ def _compile(laws, texts, loop, constants, *, cached=True):
     for name, law in laws.items():
         safe_law = bind(law, SAFE, _out_of_line, _safe_laws)
         names[f"safe_{name}"] = safe_law
-        names[name] = bind(law, FAST, inline, _fast_laws) if shows_every_nan(law) else safe_law
+        names[name] = _fast_law(law, single=dict(constants).get("SINGLE", False)) if shows_every_nan(law) else safe_law
     for part in texts.PARTS:
         names[part.__name__] = njit(_template(part, label, names), fastmath=FLAGS, error_model="numpy", nogil=True)
     with in_folder() as writeable:
@@ -231,6 +234,10 @@ def _compile(laws, texts, loop, constants, *, cached=True):
             _template(getattr(texts, loop), label, names), fastmath=FLAGS, error_model="numpy", nogil=True,
             cache=cached and writeable, parallel=loop.endswith("parallel"),
         )  # fmt: skip
+
+
+def _fast_law(law, *, single):
+    return bind(law, SINGLE, in_single, _single_laws) if single else bind(law, FAST, inline, _fast_laws)
 
 
 def _template(text, label, names):
