@@ -9,6 +9,7 @@ from coplanar.engine import atan2, cos, evaluator, exp, hypot, sin, sinc, sincos
 from tests.engines import NEEDS_NUMBA
 
 pytestmark = NEEDS_NUMBA
+ONE = 1.0
 
 
 def wave(x, y):
@@ -51,13 +52,13 @@ def test_it_is_right_to_the_last_digits(law, ulps):
 
 
 def test_it_is_computed_in_single_precision():
-    """A sum that single precision cannot hold: double precision inside would show."""
+    """A sum that single precision cannot hold: double precision inside, or in a constant, would show."""
 
     def lost(x, y):
-        return (x + y) - x
+        return (x + y) - x, (x + 1.0) - x, (x + ONE) - x
 
-    ((single, _),) = both(lost, np.full(100, 1e8), np.ones(100))
-    assert not single.any()
+    for single, _ in both(lost, np.full(100, 1e8), np.ones(100)):
+        assert not single.any()
 
 
 def test_angles_beyond_the_fast_sine():
