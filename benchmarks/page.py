@@ -246,7 +246,7 @@ MEMORY = (
 )
 LEVELS = (
     "The same laws compiled for one level of x86-64 after the other, a fresh process each; a row of a block in cache, "
-    "one thread, without the price of the call. That the cost falls with the width of the vectors is what shows that the "
-    "loops are vector code. A machine's own level also schedules for its own units."
+    "one thread, without the price of the call. That the cost falls with the width of the vectors is what shows that "
+    "the loops are vector code. A machine's own level also schedules for its own units."
 )
 ULPS = "Worst error in units of the last place of the true value, over random arguments."
