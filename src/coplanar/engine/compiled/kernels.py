@@ -115,7 +115,7 @@ class Kernel(Loops):
         paces = tuple(int(array.size > 1) for array in inputs)
         strides = tuple(steps if array.size > steps else 0 for array in inputs)
         ins = tuple(
-            _read_only(a if stride else np.tile(a, group) if pace else _spread(a, WIDTH))
+            _read_only(a if stride else (np.tile(a, group) if group > 1 else a) if pace else _spread(a, WIDTH))
             for a, stride, pace in zip(inputs, strides, paces, strict=True)
         )
         constants = (("KEEP", outputs[0].size > rows),)
