@@ -62,10 +62,11 @@ class Loops:
             self._loops[loop, constants](*arguments)
 
     def _compiled(self, kind, loop, constants):
-        with self._lock:
-            if (loop, constants) not in self._loops:
-                self._loops[loop, constants] = _compile(self._laws, self._texts[kind], loop, constants)
-            return self._loops[loop, constants]
+        if (loop, constants) not in self._loops:
+            with self._lock:
+                if (loop, constants) not in self._loops:
+                    self._loops[loop, constants] = _compile(self._laws, self._texts[kind], loop, constants)
+        return self._loops[loop, constants]
 
 
 class Kernel(Loops):
@@ -122,38 +123,37 @@ class Kernel(Loops):
         self.loop("walk", (first, hold, ins, strides, paces, outputs, (*size, group)), rows * steps, WIDTH * rows,
                   constants)  # fmt: skip
 
-    def run(self, inputs, outputs, shape, *, fresh=False):
-        """Evaluate the law on every row of the broadcast inputs.
-
-        Args:
-            inputs: Arrays of one float type that broadcast to ``shape``.
-            outputs: Arrays of ``shape`` and that type, which may lie in memory as they like, over the inputs too.
-            shape: The common shape.
-            fresh: Whether nobody else holds the outputs.
-        """
-        if fresh:
-            self._fill([_column(a, shape, math.prod(shape)) for a in inputs], inputs,
-                       tuple(out.reshape(-1) for out in outputs), shape)  # fmt: skip
-            return
-        rows = math.prod(shape)
+    def run_into(self, outputs, inputs, shape):
+        """``run`` where the outputs may lie in memory as they like, over the inputs too."""
         fit = [_may_be_written(out, inputs) for out in outputs]
         targets = [out if fits else np.empty(shape, out.dtype) for out, fits in zip(outputs, fit, strict=True)]
-        self._fill([_column(a, shape, rows) for a in inputs], inputs, tuple(t.reshape(-1) for t in targets), shape)
+        self.run(inputs, targets, shape)
         for out, target in zip(outputs, targets, strict=True):
             if out is not target:
                 out[...] = target
 
+    def run(self, inputs, outputs, shape):
+        """Evaluate the law on every row of the broadcast inputs.
+
+        Args:
+            inputs: Arrays of one float type that broadcast to ``shape``.
+            outputs: Arrays of ``shape`` and that type, contiguous and apart from the inputs.
+            shape: The common shape.
+        """
+        rows = math.prod(shape)
+        self._fill([_column(a, shape, rows) for a in inputs], inputs, tuple([o.reshape(-1) for o in outputs]), shape)
+
     def _fill(self, ready, inputs, columns, shape):
         rows = math.prod(shape)
         constants = (("SINGLE", True),) if inputs[0].dtype == np.float32 else ()
-        if all(column is not None for column, _ in ready):
-            ins, steps = zip(*ready, strict=True)
+        ins, steps = zip(*ready, strict=True)
+        if None not in steps:
             self.loop("rows", (ins, steps, columns, rows), rows, rows, constants)
             return
+        steps = tuple(1 if step is None else step for step in steps)
         whole = [np.broadcast_to(a, shape) for a in inputs]
         room = [None if column is not None else np.empty(min(rows, SPREAD_ROWS), a.dtype.newbyteorder("="))
                 for (column, _), a in zip(ready, inputs, strict=True)]  # fmt: skip
-        steps = tuple(step for _, step in ready)
         start = 0
         for index in _slabs(shape, SPREAD_ROWS):
             stop = start + whole[0][index].size
@@ -190,15 +190,17 @@ def _group(steps):
 
 
 def _column(array, shape, rows):
-    """The array as a flat column and its step, or None where it has to be spread first.
+    """The array as a flat column and its step; None and None where it has to be spread first.
 
     All columns are read-only, so that a loop is compiled once whether or not the caller's arrays are.
     """
-    if array.shape == shape and array.flags.c_contiguous and array.flags.aligned:
-        return _read_only(array if array.ndim == 1 else array.reshape(-1)), 1
+    if array.shape == shape:
+        layout = array.flags
+        if layout.c_contiguous and layout.aligned:
+            return _read_only(array), 1
     if array.size and not any(s for s, n in zip(array.strides, array.shape, strict=True) if n > 1):
         return _read_only(_spread(array, min(rows, loops.BLOCK))), 0
-    return None, 1
+    return None, None
 
 
 def _spread(array, count):
@@ -207,8 +209,8 @@ def _spread(array, count):
 
 
 def _read_only(array):
-    column = array.view()
-    column.flags.writeable = False
+    column = array.reshape(-1)
+    column.setflags(write=False)
     return column
 
 
