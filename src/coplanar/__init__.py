@@ -8,6 +8,8 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from coplanar.version import __version__ as __version__
+
 if TYPE_CHECKING:
     from coplanar.arms import Arm
     from coplanar.control import Limits, PointTracker, PolarController, Unicycle
@@ -33,8 +35,6 @@ if TYPE_CHECKING:
     from coplanar.sweeps import sweep
     from coplanar.tracing import trace
     from coplanar.wheels import Icr, RollingWheel, Wheel, WheeledBase, identify_wiring
-
-__version__ = "0.1.0"
 
 _HOMES = {
     "arms": "Arm",

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from typer.core import TyperGroup
 
-from coplanar import __version__
 from coplanar.cli.arguments import ListsOfNumbers
 from coplanar.cli.conduct import conducted
+from coplanar.version import __version__
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -35,6 +35,7 @@ from coplanar.engine.arrays import (
 from coplanar.engine.evaluator import Evaluator, can_compile, evaluator, reproducible
 from coplanar.engine.foreign import components, is_foreign, namespace_of, stack
 from coplanar.engine.scan import Scan
+from coplanar.engine.walk import Walk, running_sum
 
 __all__ = [
     "PI",
@@ -42,6 +43,7 @@ __all__ = [
     "Evaluator",
     "Integral",
     "Scan",
+    "Walk",
     "absolute",
     "asinh",
     "atan",
@@ -66,6 +68,7 @@ __all__ = [
     "namespace_of",
     "nearest",
     "reproducible",
+    "running_sum",
     "sin",
     "sinc",
     "sincos",

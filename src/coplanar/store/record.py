@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from coplanar import __version__
 from coplanar.errors import InvalidValue
 from coplanar.run import Run, RunStatus
 from coplanar.run.files import read_table, write_table
 from coplanar.scenarios import Outcome, Scenario, load
 from coplanar.store.folders import whole_folder
+from coplanar.version import __version__
 from coplanar.viz import drawn_in
 from coplanar.viz.outcomes import figure_of
 

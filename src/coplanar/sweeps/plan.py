@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from coplanar import __version__
 from coplanar.errors import InvalidValue
 from coplanar.scenarios import InvalidScenario, Problem, Scenario, read_value
 from coplanar.sweeps.keys import at
 from coplanar.sweeps.task import SEED
 from coplanar.sweeps.vary import Normal, Span, Uniform, Values, as_vary
+from coplanar.version import __version__
 
 MOST_ROWS = 100_000_000
 
