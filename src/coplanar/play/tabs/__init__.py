@@ -2,7 +2,8 @@
 
 from coplanar.play.tab import Tab
 from coplanar.play.tabs.arm import ArmTab
+from coplanar.play.tabs.drive import DriveTab
 
-TABS: dict[str, Tab] = {tab.name: tab for tab in (ArmTab(),)}
+TABS: dict[str, Tab] = {tab.name: tab for tab in (ArmTab(), DriveTab())}
 
 __all__ = ["TABS"]
