@@ -2,8 +2,9 @@
 
 from coplanar.play.tab import Tab
 from coplanar.play.tabs.arm import ArmTab
+from coplanar.play.tabs.base import BaseTab
 from coplanar.play.tabs.drive import DriveTab
 
-TABS: dict[str, Tab] = {tab.name: tab for tab in (ArmTab(), DriveTab())}
+TABS: dict[str, Tab] = {tab.name: tab for tab in (ArmTab(), DriveTab(), BaseTab())}
 
 __all__ = ["TABS"]

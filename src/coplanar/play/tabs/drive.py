@@ -43,14 +43,15 @@ class DriveTab:
                help="Adds the velocity of the reference."),
         Choice("error_against", "Error against the reference", group="Controller", default="current",
                options=(("current", "now"), ("next", "at the next step"))),
-        Slider("step", "Step h", group="Integrator", unit="s", low=0.002, high=0.2, step=0.001, default=0.02, scale="log"),
+        Slider("step", "Step h", group="Integrator", unit="s", low=0.002, high=0.2, step=0.001, default=0.02,
+               scale="log"),
         Choice("method", "Integrator", group="Integrator", options=METHODS, default="euler"),
         Switch("compare", "Compare Euler, RK4, exact", group="Integrator", default=False),
         Switch("limited", "Limits", group="Limits", default=False),
         Slider("v_limit", "Largest |v|", group="Limits", unit="m/s", low=0.05, high=5.0, step=0.05, default=0.8,
                only={"limited": (True,)}),
-        Slider("omega_limit", "Largest |omega|", group="Limits", unit="rad/s", low=0.1, high=30.0, step=0.1, default=4.0,
-               only={"limited": (True,)}),
+        Slider("omega_limit", "Largest |omega|", group="Limits", unit="rad/s", low=0.1, high=30.0, step=0.1,
+               default=4.0, only={"limited": (True,)}),
         Choice("mode", "Saturation", group="Limits", default="scale", only={"limited": (True,)},
                options=(("scale", "scale both"), ("clip", "clip each"), ("keep_omega", "keep omega"))),
         Choice("start", "Start", group="Start", options=(("reference", "P on the reference"), ("free", "anywhere")),
@@ -115,7 +116,7 @@ def steps_of(state: State) -> int:
     Raises:
         InvalidValue: If they are more than ``MOST_STEPS``.
     """
-    count = math.ceil(state["duration"] / state["step"])
+    count: int = math.ceil(state["duration"] / state["step"])
     if count > MOST_STEPS:
         least = state["duration"] / MOST_STEPS
         needed = f"at least {least:g} s for {state['duration']:g} s: at most {MOST_STEPS} steps"
