@@ -119,7 +119,9 @@ def _address(listener: socket.socket, host: str) -> str:
 def _welcome(address: str, host: str, browser: bool, say: Callable[[str], object]) -> None:
     say(f"The playground is at {address}")
     if not is_local(host):
-        say(f"It listens at {host}: everybody who reaches this machine can open it, unencrypted and without a password.")
+        say(
+            f"It listens at {host}: everybody who reaches this machine can open it, unencrypted and without a password."
+        )
         say("Nobody can read files or run code through it, but its visitors share this machine's processor.")
     say("Ctrl-C stops it.")
     if browser and _has_screen():

@@ -10,7 +10,7 @@ from coplanar.viz.web import palette_css
 _TYPES = {"html": "text/html", "css": "text/css", "js": "text/javascript", "svg": "image/svg+xml", "txt": "text/plain"}
 _OWN = (
     "index.html", "page.css", "controls.css", "icon.svg", "theme.js", "app.js", "address.js", "charts.js",
-    "connection.js", "controls.js", "copying.js", "desk.js", "elements.js", "handles.js", "ink.js", "readings.js",
+    "connection.js", "controls.js", "copying.js", "desk.js", "elements.js", "framing.js", "handles.js", "ink.js", "readings.js",
     "stage.js", "tabs.js", "transport.js", "types.js", "widgets.js",
 )  # fmt: skip
 _SHARED = ("view.js", "grid.js", "draw.js", "player.js", "player.css")

@@ -51,6 +51,7 @@ class App {
       {
         drag: (handle, to) => this.desk.drag({ handle, to }),
         nudge: (handle, by) => this.desk.nudge({ handle, by }),
+        leave: () => this.desk.leave(),
       },
       () => this.clock.time,
     );
@@ -60,7 +61,7 @@ class App {
     this.desk = new Desk(this.connection, {
       shown: (shown) => this.show(shown),
       refused: (sentence, state) => this.refused(sentence, state),
-      rested: () => this.remember(),
+      rested: () => this.rest(),
     });
     this.listen();
   }
@@ -147,7 +148,7 @@ class App {
     this.panel.update(shown.state);
     this.readings.say(shown.sentences);
     this.readings.read(shown.readouts);
-    this.clock.span(shown.pictures.main.times);
+    this.clock.span(longest(shown));
     if (fresh) this.clock.time = this.clock.end;
     this.stage.show(shown, `${tab.title}: ${shown.sentences.map((sentence) => sentence.text).join("; ")}`);
     this.charts.show(shown.series);
@@ -159,6 +160,7 @@ class App {
   /** @param {Tab} tab */
   build(tab) {
     this.built = tab.name;
+    this.stage.clear();
     document.title = `${tab.title} \u00b7 Coplanar playground`;
     write(byId("about", HTMLElement), tab.about);
     this.panel.build(tab.controls, () => this.open(tab.name, {}));
@@ -215,6 +217,11 @@ class App {
     this.transport.show();
     this.stage.redraw();
     this.charts.follow();
+  }
+
+  rest() {
+    this.stage.rest();
+    if (!this.stage.held()) this.remember();
   }
 
   /** Put the state into the address, as a place to come back to. */
@@ -276,6 +283,15 @@ class App {
     this.notice.hidden = text === "";
     if (text && !stays) this.timer = setTimeout(() => this.tell(""), GONE);
   }
+}
+
+/**
+ * The times of the picture that moves most.
+ * @param {Shown} shown
+ */
+function longest(shown) {
+  const all = Object.values(shown.pictures).map((scene) => scene.times);
+  return all.reduce((most, times) => (times.length > most.length ? times : most));
 }
 
 const app = new App();

@@ -1,6 +1,6 @@
 // Curves under the drawing, with a cursor in step with the player.
 
-import { make } from "./elements.js";
+import { make, raised } from "./elements.js";
 import uPlot from "./uPlot.esm.js";
 
 /**
@@ -42,8 +42,12 @@ export class Charts {
         this.charts[i] = this.#build(one);
       }
     });
-    this.root.replaceChildren(...this.charts.map((chart) => chart.box));
-    this.follow();
+    const boxes = this.charts.map((chart) => chart.box);
+    if (boxes.some((box, i) => box !== this.root.children[i]) || boxes.length !== this.root.children.length) {
+      this.root.replaceChildren(...boxes);
+      this.#fit();
+    }
+    queueMicrotask(() => this.follow()); // after uPlot's own, which lays the plots out
   }
 
   /** Draw again in other colours. */
@@ -75,7 +79,7 @@ export class Charts {
    * @returns {Chart}
    */
   #build(series) {
-    const plot = new uPlot(options(series, this.root.clientWidth), dataOf(series));
+    const plot = new uPlot(options(series, 300), dataOf(series));
     const timed = this.#isTimed(series);
     const caption = make("figcaption", {}, titled(series));
     const box = make("figure", { class: "chart", role: "group", "aria-label": titled(series) }, caption, plot.root);
@@ -98,13 +102,13 @@ export class Charts {
   }
 
   #fit() {
-    for (const { plot } of this.charts) plot.setSize({ width: this.root.clientWidth, height: HEIGHT });
+    for (const { plot, box } of this.charts) plot.setSize({ width: box.clientWidth, height: HEIGHT });
   }
 }
 
 /** @param {Series} series */
 function titled({ title, unit }) {
-  return unit ? `${title} [${unit}]` : title;
+  return unit ? `${title} [${raised(unit)}]` : title;
 }
 
 /** @param {Series} series */
@@ -161,6 +165,7 @@ function options(series, width) {
         label: line.label,
         stroke: colour(COLOURS[i % COLOURS.length]),
         width: 1.6,
+        pxAlign: 0,
         points: { show: series.log === true, size: 5 },
         value: (/** @type {uPlot} */ _, /** @type {number | null} */ value) => readable(value),
       })),

@@ -5,7 +5,8 @@ import { make } from "./elements.js";
 /**
  * @typedef {import("./types.js").Handle} Handle
  * @typedef {import("./view.js").View} View
- * @typedef {{drag: (handle: string, to: number[]) => void, nudge: (handle: string, by: number[]) => void}} Moves
+ * @typedef {{drag: (handle: string, to: number[]) => void, nudge: (handle: string, by: number[]) => void,
+ *   leave: () => void}} Moves
  */
 
 /** @type {Record<string, number[]>} */
@@ -25,6 +26,7 @@ export class Handles {
     this.view = undefined;
     /** @type {Map<string, HTMLElement>} */
     this.elements = new Map();
+    this.taken = false; // one of them is in the hand
   }
 
   /**
@@ -89,6 +91,7 @@ export class Handles {
     element.focus({ preventScroll: true });
     element.setPointerCapture(event.pointerId);
     element.classList.add("taken");
+    this.taken = true;
     const [x, y] = JSON.parse(element.dataset.at ?? "[0, 0]");
     const [dx, dy] = [view.x(x) - event.clientX, view.y(y) - event.clientY];
     const move = (/** @type {PointerEvent} */ moved) => {
@@ -97,6 +100,8 @@ export class Handles {
     const leave = () => {
       element.removeEventListener("pointermove", move);
       element.classList.remove("taken");
+      this.taken = false;
+      this.moves.leave();
     };
     element.addEventListener("pointermove", move);
     element.addEventListener("pointerup", leave, { once: true });

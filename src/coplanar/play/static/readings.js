@@ -1,6 +1,6 @@
 // What the library says of a state: sentences and numbers.
 
-import { make, write } from "./elements.js";
+import { make, raised, write } from "./elements.js";
 
 /**
  * @typedef {import("./types.js").Sentence} Sentence
@@ -10,7 +10,6 @@ import { make, write } from "./elements.js";
 const MARKS = { good: "\u2713", note: "i", warn: "!", no: "\u2715" };
 const WORDS = { good: "Good: ", note: "", warn: "Warning: ", no: "No: " };
 const QUIET = 800; // [ms] without a change before something is said aloud
-const RAISED = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079";
 
 export class Readings {
   /**
@@ -74,6 +73,5 @@ function sentence() {
  * @param {HTMLElement} value
  */
 function row({ label, unit }, value) {
-  const raised = unit.replace(/\^(\d)/g, (_, digit) => RAISED[Number(digit)]);
-  return make("div", {}, make("dt", {}, label), make("dd", {}, value, make("span", { class: "unit" }, raised)));
+  return make("div", {}, make("dt", {}, label), make("dd", {}, value, make("span", { class: "unit" }, raised(unit))));
 }

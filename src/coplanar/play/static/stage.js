@@ -2,15 +2,17 @@
 
 import { drawScene } from "./draw.js";
 import { make, write } from "./elements.js";
+import { Framing } from "./framing.js";
 import { Handles } from "./handles.js";
 import { Ink } from "./ink.js";
+import { View } from "./view.js";
 
 /**
  * @typedef {import("./types.js").Shown} Shown
  * @typedef {import("./types.js").SceneData} SceneData
  * @typedef {import("./types.js").Handle} Handle
  * @typedef {{name: string, figure: HTMLElement, canvas: HTMLCanvasElement, handles: Handles, ink: Ink,
- *   scene: SceneData}} Picture
+ *   framing: Framing, scene: SceneData}} Picture
  */
 
 export class Stage {
@@ -46,10 +48,28 @@ export class Stage {
     for (const [name, scene] of Object.entries(shown.pictures)) {
       const picture = this.pictures.get(name) ?? this.#add(name, scene);
       picture.scene = scene;
+      const places = shown.handles.filter((handle) => handle.picture === name).map((handle) => handle.at);
+      picture.framing.take(scene, places, this.held());
       picture.canvas.setAttribute("aria-label", name === "main" ? about : captioned(name));
     }
     this.handles = shown.handles;
     this.redraw();
+  }
+
+  /** Whether a handle is in the hand. */
+  held() {
+    return [...this.pictures.values()].some((picture) => picture.handles.taken);
+  }
+
+  /** The hand rests. */
+  rest() {
+    if (this.held()) return;
+    for (const picture of this.pictures.values()) picture.framing.rest();
+  }
+
+  /** Another tab: nothing of the old pictures stays. */
+  clear() {
+    for (const picture of this.pictures.values()) this.#remove(picture);
   }
 
   /** Draw everything with the next frame. */
@@ -74,7 +94,9 @@ export class Stage {
 
   /** @param {Picture} picture */
   #draw(picture) {
-    const view = drawScene(picture.canvas, picture.scene, this.time());
+    const { canvas, scene } = picture;
+    const view = new View(picture.framing.bounds, canvas.clientWidth, canvas.clientHeight, 0);
+    drawScene(canvas, scene, this.time(), view);
     picture.ink.over(view);
     const here = this.handles.filter((handle) => handle.picture === picture.name);
     picture.handles.place(here, view);
@@ -97,8 +119,10 @@ export class Stage {
     const handles = new Handles(over, {
       drag: (id, to) => this.moves.drag(id, to),
       nudge: (id, by) => this.moves.nudge(id, by),
+      leave: () => this.moves.leave(),
     });
-    const picture = { name, figure, canvas, handles, ink, scene };
+    const framing = new Framing(() => this.redraw());
+    const picture = { name, figure, canvas, handles, ink, framing, scene };
     this.pictures.set(name, picture);
     (name === "main" ? this.main : this.extras).append(figure);
     this.sizes.observe(canvas);

@@ -1,6 +1,6 @@
 // One form element for each kind of control that holds a single value.
 
-import { make, write } from "./elements.js";
+import { make, raised, write } from "./elements.js";
 
 /**
  * @typedef {import("./types.js").Control} Control
@@ -72,7 +72,7 @@ function slider(control, id, report) {
     { class: "row" },
     make("label", { for: id }, label),
     box,
-    make("span", { class: "unit" }, unit),
+    make("span", { class: "unit" }, raised(unit)),
   );
   const element = make("div", { class: "control slider" }, head, make("div", { class: "row" }, range, reset), hint);
   return {
