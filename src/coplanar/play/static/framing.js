@@ -1,5 +1,7 @@
 // Which part of the plane a picture shows: what is there, in view, without jumping under the hand.
 
+import { grouped } from "./view.js";
+
 /**
  * @typedef {import("./view.js").SceneData} SceneData
  * @typedef {import("./view.js").Layer} Layer
@@ -25,27 +27,46 @@ export function extentOf(scene, places) {
 }
 
 /**
+ * What a layer covers, as circles of the plane: x, y, radius.
+ * @type {Record<string, (layer: Layer) => number[][]>}
+ */
+const COVERS = {
+  region: ({ rings = [] }) => rings.flat().map(([x, y]) => [x, y, 0]),
+  discs: ({ circles = [] }) => circles.flatMap((row) => grouped(row, 3)),
+  arrows: ({ vectors = [] }) =>
+    vectors.flatMap((row) =>
+      grouped(row, 4).flatMap(([x, y, dx, dy]) => [
+        [x, y, 0],
+        [x + dx, y + dy, 0],
+      ]),
+    ),
+  segments: ({ ends = [] }) => dots(/** @type {number[][]} */ (ends)),
+  linkage: ({ joints = [] }) => dots(joints),
+  body: ({ poses = [], outline = [] }) => around(poses, outline.flat()),
+  carried: ({ poses = [], ends = [] }) => around(poses, ends.flat()),
+};
+
+/** @param {number[][]} rows of x, y, x, y, ... */
+function dots(rows) {
+  return rows.flatMap((row) => grouped(row, 2).map(([x, y]) => [x, y, 0]));
+}
+
+/**
+ * @param {number[][]} poses
+ * @param {number[]} shape numbers in the body's frame
+ */
+function around(poses, shape) {
+  const reach = Math.max(0, ...shape.map(Math.abs));
+  return poses.map(([x, y]) => [x, y, reach]);
+}
+
+/**
  * @param {Bounds} box
  * @param {Layer} layer
  */
 function includeLayer(box, layer) {
-  const { kind, points, joints, rings, circles, vectors, poses, ends, outline } = layer;
-  const shape = kind === "body" ? (outline ?? []).flat() : kind === "carried" ? (ends ?? []).flat() : [];
-  const reach = Math.max(0, ...shape.map(Math.abs));
-  for (const row of poses ?? []) include(box, row[0], row[1], reach);
-  for (const row of circles ?? []) {
-    for (let i = 0; i < row.length; i += 3) include(box, row[i], row[i + 1], row[i + 2]);
-  }
-  for (const row of vectors ?? []) {
-    for (let i = 0; i < row.length; i += 4) {
-      include(box, row[i], row[i + 1], 0);
-      include(box, row[i] + row[i + 2], row[i + 1] + row[i + 3], 0);
-    }
-  }
-  const straight = kind === "segments" ? /** @type {number[][]} */ (ends ?? []) : [];
-  for (const row of [...(points ?? []), ...(joints ?? []), ...(rings ?? []).flat(), ...straight]) {
-    for (let i = 0; i < row.length; i += 2) include(box, row[i], row[i + 1], 0);
-  }
+  const covered = COVERS[layer.kind]?.(layer) ?? dots(layer.points ?? []);
+  for (const [x, y, radius] of covered) include(box, x, y, radius);
 }
 
 /**
