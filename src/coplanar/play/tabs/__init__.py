@@ -5,7 +5,8 @@ from coplanar.play.tabs.arm import ArmTab
 from coplanar.play.tabs.base import BaseTab
 from coplanar.play.tabs.drive import DriveTab
 from coplanar.play.tabs.motion import MotionTab
+from coplanar.play.tabs.shoot import ShootTab
 
-TABS: dict[str, Tab] = {tab.name: tab for tab in (ArmTab(), DriveTab(), BaseTab(), MotionTab())}
+TABS: dict[str, Tab] = {tab.name: tab for tab in (ArmTab(), DriveTab(), BaseTab(), MotionTab(), ShootTab())}
 
 __all__ = ["TABS"]
