@@ -11,6 +11,7 @@ from collections.abc import Callable
 from functools import partial
 
 import uvicorn
+from starlette.types import ASGIApp
 
 from coplanar.errors import InvalidValue
 from coplanar.play.doors import Doors, is_local
@@ -48,7 +49,8 @@ def play(
     listener = _listener(host, port)
     address = _address(listener, host) + (f"#{fragment}" if fragment else "")
     session = Session()
-    server = Playground(_settings(session, host, limits), partial(_welcome, address, host, browser, say))
+    app = application(session.answer, Doors.of(host), limits)
+    server = Playground(settings(app, limits), partial(_welcome, address, host, browser, say))
     switch = sys.getswitchinterval()
     sys.setswitchinterval(SWITCH)
     threading.Thread(target=session.warm, daemon=True).start()
@@ -74,9 +76,10 @@ class Playground(uvicorn.Server):
         self.ready()
 
 
-def _settings(session: Session, host: str, limits: Limits) -> uvicorn.Config:
+def settings(app: ASGIApp, limits: Limits) -> uvicorn.Config:
+    """How uvicorn serves an application within the limits: no logs, no compression, nothing waited for without end."""
     return uvicorn.Config(
-        application(session.answer, Doors.of(host), limits),
+        app,
         http=partial(PromptHttp, patience=limits.patience),  # type: ignore[arg-type]
         ws=partial(PromptSocket, patience=limits.patience),  # type: ignore[arg-type]
         loop="asyncio",

@@ -17,8 +17,8 @@ class Limits:
         rate: Messages read from one connection [1/s]; more are left waiting in the sender's own socket.
         burst: Messages read at once after a pause.
         share: Computing done for one connection [s of a processor per s]; then its answers come later.
-        reserve: Computing done at once after a pause [s].
-        workers: Threads that compute.
+        reserve: Computing done at once after a pause [s]; who has spent half of it shares one thread with others like that.
+        workers: Threads that compute for everybody else.
         idle: A connection that asks for nothing is closed after this time [s].
         patience: Time to send a first request, and to take an answer [s].
         farewell: Time that open connections are given when the server stops [s].
@@ -29,7 +29,7 @@ class Limits:
     rate: float = 150.0
     burst: float = 150.0
     share: float = 0.75
-    reserve: float = 2.0
+    reserve: float = 0.5
     workers: int = 4
     idle: float = 1800.0
     patience: float = 10.0
@@ -55,6 +55,11 @@ class Allowance:
 
     def __post_init__(self) -> None:
         self.level, self.seen = self.most, self.clock()
+
+    def is_low(self) -> bool:
+        """Whether less than half is left: only who rests comes out of that again."""
+        self.spend(0.0)
+        return self.level < 0.5 * self.most
 
     def spend(self, amount: float) -> float:
         """Take an amount out, and say how long to wait until the bucket is out of debt [s]."""

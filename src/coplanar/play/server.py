@@ -1,8 +1,8 @@
 """The server: a fixed list of files, and one WebSocket whose answers are computed off the event loop.
 
 A connection has one message under way and one waiting; a newer one takes the place of the one that waits. Reading
-stops where the sender is ahead of its rate, so a flood stays in the sender's own socket, and computing is rationed by
-processor time, so an expensive question delays its asker.
+stops where the sender is ahead of its rate, so a flood stays in the sender's own socket. Computing is rationed by
+processor time: who asks for more than a share waits, and waits together with the others who do.
 """
 
 from __future__ import annotations
@@ -57,10 +57,12 @@ class Server:
     answer: Answer
     limits: Limits
     open: int = 0
-    pool: ThreadPoolExecutor = field(init=False)
+    prompt: ThreadPoolExecutor = field(init=False)
+    patient: ThreadPoolExecutor = field(init=False)
 
     def __post_init__(self) -> None:
-        self.pool = ThreadPoolExecutor(self.limits.workers, thread_name_prefix="coplanar-play")
+        self.prompt = ThreadPoolExecutor(self.limits.workers, thread_name_prefix="coplanar-play")
+        self.patient = ThreadPoolExecutor(1, thread_name_prefix="coplanar-play-patient")
 
     async def connect(self, socket: WebSocket) -> None:
         """Serve one WebSocket until it closes."""
@@ -69,7 +71,7 @@ class Server:
             await socket.close(FULL, f"{self.open} pages are open already; close one of them")
             return
         self.open += 1
-        connection = Connection(socket, self.answer, self.limits, self.pool)
+        connection = Connection(socket, self)
         try:
             await connection.serve()
         finally:
@@ -82,9 +84,7 @@ class Connection:
     """One browser: what it asked last, what is being computed for it, and what it may still spend."""
 
     socket: WebSocket
-    answer: Answer
-    limits: Limits
-    pool: ThreadPoolExecutor
+    server: Server
     newest: str = ""
     arrived: asyncio.Event = field(default_factory=asyncio.Event)
     computing: asyncio.Future[tuple[str, float]] | None = None
@@ -108,10 +108,11 @@ class Connection:
             await asyncio.wait([self.computing])
 
     async def _read(self) -> None:
-        messages = Allowance(self.limits.rate, self.limits.burst)
+        limits = self.server.limits
+        messages = Allowance(limits.rate, limits.burst)
         while True:
             try:
-                async with asyncio.timeout(self.limits.idle):
+                async with asyncio.timeout(limits.idle):
                     message = await self.socket.receive()
             except TimeoutError:
                 await self.socket.close(IDLE, "nothing was asked for a long time")
@@ -127,12 +128,14 @@ class Connection:
             await asyncio.sleep(messages.spend(1.0))
 
     async def _reply(self) -> None:
-        processor = Allowance(self.limits.share, self.limits.reserve)
+        server = self.server
+        processor = Allowance(server.limits.share, server.limits.reserve)
         loop = asyncio.get_running_loop()
         while True:
             await self.arrived.wait()
             self.arrived.clear()
-            self.computing = loop.run_in_executor(self.pool, _timed, self.answer, self.newest)
+            pool = server.patient if processor.is_low() else server.prompt
+            self.computing = loop.run_in_executor(pool, _timed, server.answer, self.newest)
             text, seconds = await asyncio.shield(self.computing)
             await self.socket.send_text(text)
             await asyncio.sleep(processor.spend(seconds))

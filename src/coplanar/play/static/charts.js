@@ -10,7 +10,7 @@ import uPlot from "./uPlot.esm.js";
  */
 
 const COLOURS = ["first", "second", "third", "fourth", "fifth", "sixth"];
-const HEIGHT = 150;
+const HEIGHT = 132;
 
 export class Charts {
   /**
