@@ -12,7 +12,7 @@ from coplanar.curves import HeldPoint
 from coplanar.play import Session
 from coplanar.play.controls import checked_state
 from coplanar.play.tabs import TABS
-from coplanar.simulate import simulate
+from coplanar.simulation import simulate
 
 SESSION = Session()
 

@@ -34,7 +34,7 @@ def python(state: State) -> str:
         f"reference = {followed}",
         f"start = {_start(state, n)}",
         f"limits = {_limits(state, n)}",
-        "run = simulate(",
+        "run = coplanar.simulate(",
         f"    coplanar.Unicycle(), tracker, reference, duration={n['duration']}, step={n['step']},",
         f'    method="{state["method"]}", limits=limits, start=start,',
         ")",
@@ -46,7 +46,6 @@ def python(state: State) -> str:
     imports = ["import numpy", "", "import coplanar"]
     imports += ["from coplanar.control import Limits"] if state["limited"] else []
     imports += ["from coplanar.curves import HeldPoint"] if rests else []
-    imports += ["from coplanar.simulate import simulate"]
     return copying.program(imports, lines, SHOWN)
 
 
