@@ -52,7 +52,7 @@ def objects(data: Steps) -> Contender:
     """A pose and a twist that are there; the tick makes the next pose."""
     x, y, theta, dx, dy, dtheta = first(data)
     pose, twist = Pose(x, y, theta), Twist(dx / DT, dy / DT, dtheta / DT)
-    return Contender("coplanar: pose.step(twist.during(dt))", lambda: pose.step(twist.during(DT)), 1)
+    return Contender("coplanar: pose.integrate(twist, dt)", lambda: pose.integrate(twist, DT), 1)
 
 
 def bare_law(data: Steps) -> Contender:

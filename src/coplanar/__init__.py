@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     )
     from coplanar.run import Run
     from coplanar.se2 import Displacement, Pose, Twist, unwrap_angles, wrap_angle
-    from coplanar.simulate import simulate
+    from coplanar.simulation import simulate
     from coplanar.tracing import trace
     from coplanar.wheels import Icr, RollingWheel, Wheel, WheeledBase, identify_wiring
 
@@ -45,7 +45,7 @@ _HOMES = {
     "motion": "DrivingHistory HolonomicMotion Odometry OdometryNoise Program Ramp Segment Trapezoid",
     "run": "Run",
     "se2": "Displacement Pose Twist unwrap_angles wrap_angle",
-    "simulate": "simulate",
+    "simulation": "simulate",
     "tracing": "trace",
     "wheels": "Icr RollingWheel Wheel WheeledBase identify_wiring",
 }

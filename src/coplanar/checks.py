@@ -62,7 +62,7 @@ def positive(name: str, value: ArrayLike, *, remedy: str = "") -> Real:
         0.1
     """
     checked = real(name, value, remedy=remedy)
-    _demand(checked > 0.0, name, value, checked, "greater than 0", remedy)
+    demand(checked > 0.0, name, value, checked, "greater than 0", remedy)
     return checked
 
 
@@ -77,7 +77,7 @@ def not_negative(name: str, value: ArrayLike, *, remedy: str = "") -> Real:
         0.0
     """
     checked = real(name, value, remedy=remedy)
-    _demand(checked >= 0.0, name, value, checked, "0 or more", remedy)
+    demand(checked >= 0.0, name, value, checked, "0 or more", remedy)
     return checked
 
 
@@ -154,11 +154,33 @@ def broadcast(**values: Real) -> tuple[int, ...]:
         >>> broadcast(x=1.0, y=np.zeros(3))
         (3,)
     """
+    if {*map(type, values.values())} == {float}:
+        return ()
     try:
         return np.broadcast_shapes(*(np.shape(v) for v in values.values()))
     except ValueError:
         shapes = ", ".join(str(np.shape(v)) for v in values.values())
         raise InvalidShape(", ".join(values), f"shapes {shapes}", "shapes that broadcast as in NumPy") from None
+
+
+def demand(fine: Any, name: str, value: Any, checked: Real, needed: str, remedy: str = "") -> None:
+    """Refuse a value unless the condition on it holds, entry by entry.
+
+    Args:
+        fine: The condition; not asked of arrays of other libraries, whose numbers may not be there yet.
+        name: What to call the value in the error.
+        value: What was given.
+        checked: What the condition was asked of, of its shape.
+        needed: The condition in words.
+        remedy: What to do when it is refused.
+
+    Raises:
+        InvalidValue: With the first entry that is refused.
+    """
+    if fine is True or is_foreign(checked):
+        return
+    if not np.all(fine):
+        raise InvalidValue(name, value, _where(needed, checked, fine), remedy)
 
 
 def instance(name: str, value: object, kind: type, *, remedy: str = "") -> None:
@@ -192,13 +214,6 @@ def _is_immutable(array: np.ndarray) -> bool:
             return False
         owner = owner.base
     return owner is None or isinstance(owner, bytes)
-
-
-def _demand(fine: Any, name: str, value: Any, checked: Real, needed: str, remedy: str) -> None:
-    if fine is True or is_foreign(checked):
-        return
-    if not np.all(fine):
-        raise InvalidValue(name, value, _where(needed, checked, fine), remedy)
 
 
 def _where(needed: str, checked: Real, fine: Any) -> str:

@@ -12,7 +12,7 @@ from coplanar.control import METHODS, Limits, PointTracker, Unicycle
 from coplanar.curves import Astroid, Circle, HeldPoint, Lemniscate
 from coplanar.errors import InvalidShape, InvalidValue, UnknownName
 from coplanar.run import RunStatus
-from coplanar.simulate import Noise, simulate
+from coplanar.simulation import Noise, simulate
 
 ASTROID = Astroid(1.0).over(10.0)
 

@@ -57,10 +57,11 @@ class Loops:
             self._loops[loop, constants](*arguments)
 
     def _compiled(self, kind, loop, constants):
-        with self._lock:
-            if (loop, constants) not in self._loops:
-                self._loops[loop, constants] = _compile(self._laws, self._texts[kind], loop, constants)
-            return self._loops[loop, constants]
+        if (loop, constants) not in self._loops:
+            with self._lock:
+                if (loop, constants) not in self._loops:
+                    self._loops[loop, constants] = _compile(self._laws, self._texts[kind], loop, constants)
+        return self._loops[loop, constants]
 
 
 class Kernel(Loops):
@@ -92,30 +93,34 @@ class Kernel(Loops):
         constants = (("KEEP", outputs[0].size > width), ("PATTERN", pattern))
         self.loop("scan", arguments, count * width, width, constants)
 
+    def run_into(self, outputs, inputs, shape):
+        """``run`` where the outputs may lie in memory as they like, over the inputs too."""
+        fit = [_may_be_written(out, inputs) for out in outputs]
+        targets = [out if fits else np.empty(shape, out.dtype) for out, fits in zip(outputs, fit, strict=True)]
+        self.run(inputs, targets, shape)
+        for out, target in zip(outputs, targets, strict=True):
+            if out is not target:
+                out[...] = target
+
     def run(self, inputs, outputs, shape):
         """Evaluate the law on every row of the broadcast inputs.
 
         Args:
             inputs: Arrays of one float type that broadcast to ``shape``.
-            outputs: Arrays of ``shape`` and that type, which may lie in memory as they like, over the inputs too.
+            outputs: Arrays of ``shape`` and that type, contiguous and apart from the inputs.
             shape: The common shape.
         """
         rows = math.prod(shape)
-        fit = [_may_be_written(out, inputs) for out in outputs]
-        targets = [out if fits else np.empty(shape, out.dtype) for out, fits in zip(outputs, fit, strict=True)]
-        self._fill([_column(a, shape, rows) for a in inputs], inputs, tuple(t.reshape(-1) for t in targets), shape)
-        for out, target in zip(outputs, targets, strict=True):
-            if out is not target:
-                out[...] = target
+        self._fill([_column(a, shape, rows) for a in inputs], inputs, tuple([o.reshape(-1) for o in outputs]), shape)
 
     def _fill(self, ready, inputs, columns, shape):
         rows = math.prod(shape)
-        if all(column is not None for column, _ in ready):
-            ins, steps = zip(*ready, strict=True)
+        ins, steps = zip(*ready, strict=True)
+        if None not in steps:
             self.loop("rows", (ins, steps, columns, rows), rows, rows)
             return
         whole = [np.broadcast_to(a, shape).flat for a in inputs]
-        steps = tuple(step for _, step in ready)
+        steps = tuple(1 if step is None else step for step in steps)
         span = 16 * loops.BLOCK
         for start in range(0, rows, span):
             stop = min(start + span, rows)
@@ -128,20 +133,22 @@ class Kernel(Loops):
 
 
 def _column(array, shape, rows):
-    """The array as a flat column and its step, or None where it has to be spread first.
+    """The array as a flat column and its step; None and None where it has to be spread first.
 
     All columns are read-only, so that a loop is compiled once whether or not the caller's arrays are.
     """
+    if array.shape == shape:
+        layout = array.flags
+        if layout.c_contiguous and layout.aligned:
+            return _read_only(array), 1
     if array.size == 1:
         return _read_only(np.full(min(rows, loops.BLOCK), array.item(), array.dtype)), 0
-    if array.shape == shape and array.flags.c_contiguous and array.flags.aligned:
-        return _read_only(array.reshape(-1)), 1
-    return None, 1
+    return None, None
 
 
 def _read_only(array):
-    column = array.view()
-    column.flags.writeable = False
+    column = array.reshape(-1)
+    column.setflags(write=False)
     return column
 
 

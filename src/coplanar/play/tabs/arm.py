@@ -135,6 +135,8 @@ def _settled(state: State, changed: str) -> State:
     elif changed in ("q1", "q2", "q3"):
         follow = "joints"
     state = state | {"follow": follow}
+    if changed == "elbow":
+        state["q2"] = -state["q2"]  # the other elbow is looked for on the other side
     arm = arm_of(state)
     if follow == "joints":
         x, y = arm.forward(joints_of(state)).position.tolist()

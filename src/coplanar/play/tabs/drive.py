@@ -16,7 +16,7 @@ from coplanar.play.controls import AnyControl, Choice, Slider, State, Switch, cl
 from coplanar.play.tabs import drive_copy, drive_view, strokes
 from coplanar.run import Run
 from coplanar.se2 import Pose, wrap_angle
-from coplanar.simulate import simulate
+from coplanar.simulation import simulate
 
 MOST_STEPS = 2000  # of one run
 LIVE_STEPS = 250  # while something is dragged: the beginning of the run

@@ -10,7 +10,7 @@ import numpy as np
 from coplanar.control import PointTracker, Unicycle
 from coplanar.curves import Astroid
 from coplanar.run import Run
-from coplanar.simulate import simulate
+from coplanar.simulation import simulate
 from coplanar.tour.demo import Demo
 from coplanar.viz.axes import plot_headings, plot_path, plot_series
 from coplanar.viz.control import plot_poles

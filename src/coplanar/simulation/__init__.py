@@ -1,6 +1,6 @@
 """Closed loops: plant, controller and reference make a ``Run``."""
 
-from coplanar.simulate.loop import Plant, simulate
-from coplanar.simulate.noise import Noise
+from coplanar.simulation.loop import Plant, simulate
+from coplanar.simulation.noise import Noise
 
 __all__ = ["Noise", "Plant", "simulate"]

@@ -15,7 +15,7 @@ from coplanar.control.controller import Timed
 from coplanar.errors import InvalidShape, InvalidValue
 from coplanar.run import Run, RunStatus
 from coplanar.se2 import Pose
-from coplanar.simulate.noise import Noise
+from coplanar.simulation.noise import Noise
 
 WHOLE_STEPS = 1e-9  # of a step: a duration this near a whole number of steps is that number
 
