@@ -284,15 +284,15 @@ class TestHostility:
             with opened(port) as client:
                 while not stop.is_set():
                     client.send("dear")
-                    client.recv(timeout=30)
+                    client.recv(timeout=60)
 
-        with serving(answer, Limits(reserve=0.1)) as port:
+        with serving(answer, Limits()) as port:
             alone = latencies(port, message="cheap")
             threads = [threading.Thread(target=insist, args=(port,)) for _ in range(16)]
             for thread in threads:
                 thread.start()
             try:
-                time.sleep(3.0)
+                time.sleep(1.0)
                 beside = latencies(port, message="cheap")
             finally:
                 stop.set()
@@ -302,18 +302,15 @@ class TestHostility:
         assert statistics.median(beside) < 250.0
 
     def test_a_reader_who_does_not_read_is_dropped(self):
-        with serving(lambda _: "x" * 8_000_000, Limits(patience=0.5)) as port:
-            with socket.create_connection(("127.0.0.1", port)) as line:
-                line.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-                shake(line, port)
-                send_text(line, b"more")
-                send_text(line, b"more")
-                alone = latencies(port, 3)
-                time.sleep(1.5)
-                line.settimeout(10)
-                line.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
-                assert drained(line) < 16_000_000
-            assert statistics.median(alone) < 500.0
+        limits = Limits(sessions=1, patience=0.5)
+        with serving(lambda _: "x" * 8_000_000, limits) as port, socket.create_connection(("127.0.0.1", port)) as line:
+            line.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+            shake(line, port)
+            send_text(line, b"more")
+            time.sleep(1.5)
+            with opened(port) as another:
+                another.send("more")
+                assert len(another.recv(timeout=10)) == 8_000_000
 
     def test_pings_whose_answers_are_not_read_end_the_line(self):
         with serving() as port, socket.create_connection(("127.0.0.1", port)) as line:

@@ -2,7 +2,7 @@
 
 A connection has one message under way and one waiting; a newer one takes the place of the one that waits. Reading
 stops where the sender is ahead of its rate, so a flood stays in the sender's own socket. Computing is rationed by
-processor time: who asks for more than a share waits, and waits together with the others who do.
+processor time: who asks for more than a share waits, and of those who wait whoever has used least goes first.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import partial
 
 from starlette.applications import Starlette
 from starlette.requests import Request
@@ -23,7 +24,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from coplanar.play.doors import Doors, Guarded
 from coplanar.play.files import File, files
-from coplanar.play.limits import Allowance, Limits
+from coplanar.play.limits import Allowance, Limits, Turns, Use
 
 Answer = Callable[[str], str]
 
@@ -57,12 +58,12 @@ class Server:
     answer: Answer
     limits: Limits
     open: int = 0
-    prompt: ThreadPoolExecutor = field(init=False)
-    patient: ThreadPoolExecutor = field(init=False)
+    pool: ThreadPoolExecutor = field(init=False)
+    turns: Turns = field(init=False)
 
     def __post_init__(self) -> None:
-        self.prompt = ThreadPoolExecutor(self.limits.workers, thread_name_prefix="coplanar-play")
-        self.patient = ThreadPoolExecutor(1, thread_name_prefix="coplanar-play-patient")
+        self.pool = ThreadPoolExecutor(self.limits.workers, thread_name_prefix="coplanar-play")
+        self.turns = Turns(self.limits.workers)
 
     async def connect(self, socket: WebSocket) -> None:
         """Serve one WebSocket until it closes."""
@@ -128,17 +129,23 @@ class Connection:
             await asyncio.sleep(messages.spend(1.0))
 
     async def _reply(self) -> None:
-        server = self.server
-        processor = Allowance(server.limits.share, server.limits.reserve)
-        loop = asyncio.get_running_loop()
+        server, loop = self.server, asyncio.get_running_loop()
+        processor, use = Allowance(server.limits.share, server.limits.reserve), Use()
         while True:
             await self.arrived.wait()
+            used = use.add(0.0)
+            await server.turns.take(used)
             self.arrived.clear()
-            pool = server.patient if processor.is_low() else server.prompt
-            self.computing = loop.run_in_executor(pool, _timed, server.answer, self.newest)
+            self.computing = loop.run_in_executor(server.pool, _timed, server.answer, self.newest)
+            self.computing.add_done_callback(partial(_give, server.turns, used))
             text, seconds = await asyncio.shield(self.computing)
+            use.add(seconds)
             await self.socket.send_text(text)
             await asyncio.sleep(processor.spend(seconds))
+
+
+def _give(turns: Turns, used: float, _: object) -> None:
+    turns.give(used)
 
 
 def _timed(answer: Answer, text: str) -> tuple[str, float]:
