@@ -1,0 +1,27 @@
+"""Scenarios: what robots do, written down in files; every demonstration of the library is one.
+
+``load("track-astroid").run()`` gives an ``Outcome``; ``load("my.yaml")`` tells everything that is wrong with a file at
+once.
+"""
+
+from coplanar.scenarios.catalog import names
+from coplanar.scenarios.changes import read_value
+from coplanar.scenarios.kinds import KINDS
+from coplanar.scenarios.outcome import Finding, Outcome
+from coplanar.scenarios.problems import InvalidScenario, Problem
+from coplanar.scenarios.reading import from_data, load, parse
+from coplanar.scenarios.scenario import Scenario
+
+__all__ = [
+    "KINDS",
+    "Finding",
+    "InvalidScenario",
+    "Outcome",
+    "Problem",
+    "Scenario",
+    "from_data",
+    "load",
+    "names",
+    "parse",
+    "read_value",
+]
