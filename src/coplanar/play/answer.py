@@ -93,12 +93,13 @@ class Answer:
         lines: Mapping[str, Iterable[float]],
         *,
         log: bool = False,
+        roles: Mapping[str, str] | None = None,
     ) -> None:
-        """Add a series: ``x`` is its label and values, ``lines`` the values by name."""
+        """Add a series: ``x`` is its label and values, ``lines`` the values by name, ``roles`` their colours."""
         label, places = x
         entry = {
             "title": title, "unit": unit, "x": {"label": label, "values": _values(places)},
-            "lines": [{"label": name, "values": _values(values)} for name, values in lines.items()],
+            "lines": [{"label": name, "values": _values(values), "role": (roles or {}).get(name, "")} for name, values in lines.items()],
         }  # fmt: skip
         self.series.append(entry | ({"log": True} if log else {}))
 

@@ -107,8 +107,33 @@ export class Charts {
 }
 
 /** @param {Series} series */
-function titled({ title, unit }) {
-  return unit ? `${title} [${raised(unit)}]` : title;
+function titled({ title, unit, x }) {
+  const over = x.label.startsWith("t") ? "" : ` against ${x.label}`;
+  return `${title}${unit && ` [${raised(unit)}]`}${over}`;
+}
+
+const EXPONENT = "\u207b";
+const DIGITS = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079";
+
+/**
+ * Whole powers of ten in an interval, at most six of them.
+ * @param {number} low
+ * @param {number} high
+ */
+function decades(low, high) {
+  const first = Math.ceil(Math.log10(low) - 1e-9);
+  const last = Math.floor(Math.log10(high) + 1e-9);
+  const stride = Math.max(1, Math.ceil((last - first) / 5));
+  const found = [];
+  for (let power = first; power <= last; power += stride) found.push(10 ** power);
+  return found;
+}
+
+/** @param {number} value */
+function asPower(value) {
+  const power = Math.round(Math.log10(value));
+  const digits = [...String(Math.abs(power))].map((digit) => DIGITS[Number(digit)]).join("");
+  return `10${power < 0 ? EXPONENT : ""}${digits}`;
 }
 
 /** @param {Series} series */
@@ -151,29 +176,51 @@ function options(series, width) {
     ticks: { show: false },
     font: "11px system-ui, sans-serif",
     size: 46,
+    ...(series.log && {
+      splits: (
+        /** @type {uPlot} */ _,
+        /** @type {number} */ _i,
+        /** @type {number} */ low,
+        /** @type {number} */ high,
+      ) => decades(low, high),
+      values: (/** @type {uPlot} */ _, /** @type {number[]} */ values) => values.map(asPower),
+    }),
   };
+  const none = series.x.label.startsWith("t") ? "\u2013" : "";
   return {
     width,
     height: HEIGHT,
     scales: { x: { time: false, ...scale }, y: scale },
     cursor: { drag: { x: false, y: false }, y: false, points: { size: 7 } },
-    legend: { live: true, markers: { width: 0, fill: (_, i) => colour(COLOURS[(i - 1) % COLOURS.length]) } },
+    legend: { live: true, markers: { width: 0, fill: (_, i) => colour(roleOf(series, i - 1)) } },
     axes: [{ ...axis, size: 26, space: 60 }, axis],
     series: [
-      { label: series.x.label, value: (_, value) => readable(value) },
+      { label: series.x.label, value: (_, value) => readable(value, none) },
       ...series.lines.map((line, i) => ({
         label: line.label,
-        stroke: colour(COLOURS[i % COLOURS.length]),
+        stroke: colour(roleOf(series, i)),
         width: 1.6,
         pxAlign: 0,
         points: { show: series.log === true, size: 5 },
-        value: (/** @type {uPlot} */ _, /** @type {number | null} */ value) => readable(value),
+        value: (/** @type {uPlot} */ _, /** @type {number | null} */ value) => readable(value, none),
       })),
     ],
   };
 }
 
-/** @param {number | null} value */
-function readable(value) {
-  return value === null || value === undefined ? "\u2013" : String(Number(value.toPrecision(4)));
+/**
+ * The colour of a line: its own, or the next.
+ * @param {Series} series
+ * @param {number} i
+ */
+function roleOf(series, i) {
+  return series.lines[i]?.role || COLOURS[i % COLOURS.length];
+}
+
+/**
+ * @param {number | null} value
+ * @param {string} none
+ */
+function readable(value, none) {
+  return value === null || value === undefined ? none : String(Number(value.toPrecision(4)));
 }

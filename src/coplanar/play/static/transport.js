@@ -34,6 +34,6 @@ export class Transport {
     this.scrub.value = String(Math.round(1000 * clock.part));
     const text = `${clock.time.toFixed(2)} s`;
     this.scrub.setAttribute("aria-valuetext", text);
-    write(this.output, `${text} of ${clock.end.toFixed(1)}`);
+    write(this.output, `${clock.time.toFixed(2)} / ${clock.end.toFixed(1)} s`);
   }
 }

@@ -164,7 +164,7 @@ def _plot(answer: Answer, run: Run, runs: dict[str, Run], rows: np.ndarray) -> N
     answer.plot("Error", "m", time, {"ex": run["ex"][rows], "ey": run["ey"][rows]})
     if "exact" in runs and len(runs) > 1:
         apart = {method: _apart(other, runs["exact"], rows) for method, other in runs.items() if method != "exact"}
-        answer.plot("Distance from the exact run", "m", time, apart)
+        answer.plot("Distance from the exact run", "m", time, apart, roles=ROLES)
         for method, distance in apart.items():
             most = float(np.nanmax(distance, initial=0.0))
             answer.read(f"apart_{method}", f"{method} from exact, at most", most, "m", "Integrators")

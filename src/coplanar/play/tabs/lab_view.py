@@ -18,6 +18,7 @@ LIVE_STEPS = 120  # of all methods together, while something is dragged
 SLOPES = {"euler": 1, "midpoint": 2, "rk4": 4}  # evaluations of the rates a step
 NAMES = {"euler": "Euler", "midpoint": "RK2 (midpoint)", "rk4": "RK4"}
 ROLES = {"euler": "fifth", "midpoint": "second", "rk4": "fourth"}
+COLOURS = {NAMES[method]: role for method, role in ROLES.items()}
 
 
 def show(answer: Answer, state: State, count: int, *, live: bool) -> None:
@@ -73,13 +74,14 @@ def _distances(answer: Answer, paths: dict[str, np.ndarray | None], t: np.ndarra
         answer.read(f"apart_{method}", f"{NAMES[method]}, at the end", last, "m", "Distance from exact")
     answer.read("steps", "steps", len(t) - 1, "", "Distance from exact")
     answer.read("h", "step", float(t[1]), "s", "Distance from exact")
-    answer.plot("Distance from the exact motion", "m", ("time [s]", t), lines)
+    answer.plot("Distance from the exact motion", "m", ("time [s]", t), lines, roles=COLOURS)
 
 
 def _study(answer: Answer, problem: Problem, found: dict[str, Study]) -> None:
     steps = [problem.duration / count for count in COUNTS]
     errors = {NAMES[method]: [e if e > 0.0 else math.nan for e in study.errors] for method, study in found.items()}
-    answer.plot("Error at the end", "m", ("step [s]", steps[::-1]), {n: e[::-1] for n, e in errors.items()}, log=True)
+    lines = {name: e[::-1] for name, e in errors.items()}
+    answer.plot("Error at the end", "m", ("step [s]", steps[::-1]), lines, log=True, roles=COLOURS)
     for method, study in found.items():
         if math.isfinite(study.order):
             answer.read(f"order_{method}", f"{NAMES[method]}, order", study.order, "", "Order, seen")

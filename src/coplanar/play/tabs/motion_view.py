@@ -109,7 +109,7 @@ def _compare(answer: Answer, program: Program, start: Pose, stepped: dict[str, s
         lines[method] = np.hypot(poses[:, 0] - exact.x, poses[:, 1] - exact.y)
         answer.read(f"apart_{method}", f"{method} from exact, at the end", float(lines[method][-1]), "m", "Integrators")
     if lines:
-        answer.plot("Distance from the exact path", "m", ("time [s]", t), lines)
+        answer.plot("Distance from the exact path", "m", ("time [s]", t), lines, roles=ROLES)
 
 
 def _thinned(count: int) -> np.ndarray:
