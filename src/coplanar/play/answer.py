@@ -99,7 +99,10 @@ class Answer:
         label, places = x
         entry = {
             "title": title, "unit": unit, "x": {"label": label, "values": _values(places)},
-            "lines": [{"label": name, "values": _values(values), "role": (roles or {}).get(name, "")} for name, values in lines.items()],
+            "lines": [
+                {"label": name, "values": _values(values), "role": (roles or {}).get(name, "")}
+                for name, values in lines.items()
+            ],
         }  # fmt: skip
         self.series.append(entry | ({"log": True} if log else {}))
 

@@ -183,7 +183,8 @@ function options(series, width) {
         /** @type {number} */ low,
         /** @type {number} */ high,
       ) => decades(low, high),
-      values: (/** @type {uPlot} */ _, /** @type {number[]} */ values) => values.map(asPower),
+      filter: (/** @type {uPlot} */ _, /** @type {number[]} */ splits) => splits,
+      values: (/** @type {uPlot} */ _, /** @type {number[]} */ splits) => splits.map((value) => asPower(value)),
     }),
   };
   const none = series.x.label.startsWith("t") ? "\u2013" : "";
