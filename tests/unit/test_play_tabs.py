@@ -303,7 +303,7 @@ def test_no_launch_is_an_answer():
     assert not layers(answer, "trail")
 
 
-@pytest.mark.parametrize("motion", ["arc", "clothoid", "shot"])
+@pytest.mark.parametrize("motion", ["arc", "clothoid"])
 def test_orders_are_seen_and_a_step_for_a_millimetre_is_verified(motion):
     answer = show("lab", {"motion": motion, "alpha": 0.3 if motion == "clothoid" else 0.0, "duration": 3.0})
     read = numbers(answer)
@@ -314,6 +314,14 @@ def test_orders_are_seen_and_a_step_for_a_millimetre_is_verified(motion):
             close = numbers(show("lab", answer["state"] | {"step": min(step, 2.0)}))
             assert close[f"apart_{method}"] <= 1e-3
     assert next(series for series in answer["series"] if series.get("log"))
+
+
+def test_a_shot_shows_its_errors_against_the_step():
+    answer = show("lab", {"motion": "shot", "duration": 1.5})
+    series = next(series for series in answer["series"] if series.get("log"))
+    for line, order in zip(series["lines"], (1, 2, 4), strict=True):
+        finest, next_one = line["values"][2], line["values"][3]
+        assert math.log2(next_one / finest) == pytest.approx(order, abs=0.35)
 
 
 def test_a_method_that_diverges_is_said_to():

@@ -102,9 +102,9 @@ class BaseTab:
         """A program with the same base and motion."""
         return base_copy.python(state, base_of(state))
 
-    def yaml(self, state: State) -> str:
-        """A scenario of the same."""
-        return base_copy.yaml(state)
+    def scenario(self, state: State) -> dict[str, Any]:
+        """The same as a scenario file holds it."""
+        return base_copy.scenario(state, base_of(state))
 
 
 def twist_of(state: State) -> Twist:
