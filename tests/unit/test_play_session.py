@@ -14,7 +14,10 @@ from hypothesis import strategies as st
 from coplanar.errors import InvalidInput
 from coplanar.play import Session, copying, protocol
 from coplanar.play.controls import Choice, Rows, Slider, Stroke, Switch
+from coplanar.play.openings import OPENINGS
+from coplanar.play.scenarios import opened
 from coplanar.play.tabs import TABS
+from coplanar.scenarios import KINDS, from_data, load, names, parse
 
 SESSION = Session()
 
@@ -246,6 +249,52 @@ def test_copied_programs_run_and_print_the_numbers_that_were_read():
         assert len(printed) > 1 or case[1].get("drag") == 0.5, case
         for key, value in printed.items():
             assert value == pytest.approx(numbers[key], rel=1e-12, abs=1e-12), (case, key)
+
+
+@pytest.mark.parametrize(("tab", "state"), COPIED)
+def test_copied_scenarios_load_measure_the_numbers_that_were_read_and_open_again(tab, state):
+    answer = answered({"id": 1, "do": "show", "tab": tab, "state": state})
+    copied = answered({"id": 1, "do": "copy", "as": "yaml", "tab": tab, "state": answer["state"]})
+    scenario = parse(copied["text"])
+    read = {e["key"]: e["number"] for e in answer["readouts"] if "number" in e}
+    if scenario.type in ("lab", "shot"):  # their numbers are of other steps, and of another end
+        return
+    for key, value in scenario.measure().items():
+        if key in read:
+            assert value == pytest.approx(read[key], rel=1e-9, abs=1e-12), key
+    name, back = opened(scenario)
+    assert name == tab
+    once = answered({"id": 1, "do": "copy", "as": "yaml", "tab": tab, "state": back})
+    there = parse(once["text"]).measure()
+    for key, value in scenario.measure().items():
+        assert float(value) == pytest.approx(float(there[key]), rel=1e-9, abs=1e-12, nan_ok=True), key
+
+
+@pytest.mark.parametrize("name", names())
+def test_a_scenario_of_the_catalog_opens_or_is_refused_with_the_reason(name):
+    scenario = load(name)
+    if scenario.type not in OPENINGS:
+        with pytest.raises(InvalidInput, match="one that the playground can show"):
+            opened(scenario)
+        return
+    try:
+        tab, state = opened(scenario)
+    except InvalidInput:  # out of the range of a slider, or more than a tab can hold
+        return
+    assert answered({"id": 1, "do": "show", "tab": tab, "state": state})["ok"]
+
+
+def test_what_has_no_place_in_the_playground_is_refused():
+    scenario = load("track-astroid")
+    assert opened(scenario)[1]["kd"] == 0.5
+    with pytest.raises(InvalidInput, match="place in the playground"):
+        opened(scenario.replaced({"noise": {"position": 0.01, "seed": 1}}))
+    with pytest.raises(InvalidInput, match=r"0\.1 to 200"):
+        opened(scenario.replaced({"controller.kp": 400.0}))
+    with pytest.raises(InvalidInput, match="two or three revolute links"):
+        opened(parse("{type: arm-pose, arm: {links: [1, 1, 1, 1]}, q: [0, 0, 0, 0]}"))
+    with pytest.raises(InvalidInput, match="arm-pose, arm-reach"):
+        opened(from_data({"schema": 1, "type": "rolling-wheel", **KINDS["rolling-wheel"].example}))
 
 
 def test_only_numbers_and_fixed_words_enter_a_copied_program():

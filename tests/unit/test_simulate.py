@@ -228,3 +228,13 @@ def test_a_large_batch_in_the_compiled_loop():
     for i in (0, 100, 209):
         alone = simulate(Unicycle(), PointTracker((0.1, 0.0), float(kp[i])), ASTROID, step=0.01, duration=1.0)
         np.testing.assert_allclose(many.robot(i).states, alone.states, atol=1e-12)
+
+
+def test_each_robot_draws_from_its_own_seed():
+    noise = Noise(position=0.01, v=0.1, seed=np.array([3, 8]))
+    drawn = noise.draw(4, (2,))
+    for i, seed in enumerate((3, 8)):
+        assert np.array_equal(drawn[..., i], Noise(position=0.01, v=0.1, seed=seed).draw(4, ()))
+    assert noise.shape == (2,)
+    with pytest.raises(InvalidValue, match="whole numbers"):
+        Noise(seed=0.5)

@@ -4,6 +4,7 @@
 once.
 """
 
+from coplanar.scenarios.batches import batched, measured, varied
 from coplanar.scenarios.catalog import names
 from coplanar.scenarios.changes import read_value
 from coplanar.scenarios.kinds import KINDS
@@ -11,6 +12,7 @@ from coplanar.scenarios.outcome import Finding, Outcome
 from coplanar.scenarios.problems import InvalidScenario, Problem
 from coplanar.scenarios.reading import from_data, load, parse
 from coplanar.scenarios.scenario import Scenario
+from coplanar.scenarios.writing import schema, template
 
 __all__ = [
     "KINDS",
@@ -19,9 +21,14 @@ __all__ = [
     "Outcome",
     "Problem",
     "Scenario",
+    "batched",
     "from_data",
     "load",
+    "measured",
     "names",
     "parse",
     "read_value",
+    "schema",
+    "template",
+    "varied",
 ]

@@ -84,9 +84,25 @@ class Scenario(Part):
         kept = self.model_dump(mode="json", by_alias=True, exclude_unset=not defaults)
         return {"schema": self.version, "type": self.type, **kept}
 
+    def to_yaml(self, *, defaults: bool = False, comments: bool = False) -> str:
+        """The scenario as YAML, which makes the same scenario again.
+
+        Args:
+            defaults: Whether to fill in what was not given.
+            comments: Whether each key is followed by what it is and its unit.
+        """
+        from coplanar.scenarios.writing import yaml_of
+
+        return yaml_of(self.data(defaults=defaults), type(self), comments=comments)
+
     def takes_arrays(self, key: str) -> bool:
         """Whether ``measure`` takes an array under a key, as ``controller.kp``."""
         return any(fnmatchcase(key, pattern) for pattern in self.vectorised_keys)
+
+    @property
+    def rows_at_once(self) -> int:
+        """How many rows ``measured`` takes together, for the sake of memory."""
+        return 20_000
 
     def _outcome(self, progress: Progress, /) -> Outcome:
         raise NotImplementedError

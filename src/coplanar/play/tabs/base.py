@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 from coplanar import checks
 from coplanar.play.answer import Answer
 from coplanar.play.controls import AnyControl, Choice, Rows, Slider, State, clipped
+from coplanar.play.kept import Kept
 from coplanar.play.tabs import base_copy, base_view
 from coplanar.se2 import Twist, wrap_angle
 from coplanar.wheels import Wheel, WheeledBase
@@ -102,9 +103,9 @@ class BaseTab:
         """A program with the same base and motion."""
         return base_copy.python(state, base_of(state))
 
-    def yaml(self, state: State) -> str:
-        """A scenario of the same."""
-        return base_copy.yaml(state)
+    def scenario(self, state: State) -> dict[str, Any]:
+        """The same as a scenario file holds it."""
+        return base_copy.scenario(state, base_of(state))
 
 
 def twist_of(state: State) -> Twist:
@@ -113,27 +114,37 @@ def twist_of(state: State) -> Twist:
 
 
 def base_of(state: State) -> WheeledBase:
-    """The base of a state."""
-    layout, radius = state["layout"], state["radius"]
+    """The base of a state; kept, because an answer asks for the same one several times."""
+    sizes = tuple(state[key] for key in ("half_length", "half_width", "distance", "radius", "rollers"))
+    motion = tuple(state[key] for key in ("vx", "vy", "omega")) if state["layout"] == "swerve" else ()
+    table = tuple(tuple(row.items()) for row in state["wheels"]) if state["layout"] == "custom" else ()
+    return _bases((state["layout"], sizes, motion, table))
+
+
+def _made(key: tuple[Any, ...]) -> WheeledBase:
+    layout, sizes, motion, table = key
+    if layout == "custom":
+        return WheeledBase(tuple(_wheel(dict(row)) for row in table))
+    length, width, distance, radius, rollers = sizes
     if layout == "differential":
-        return WheeledBase.differential(half_track=state["half_width"], radius=radius)
+        return WheeledBase.differential(half_track=width, radius=radius)
     if layout in ("omni3", "omni4"):
-        return WheeledBase.omni(int(layout[-1]), wheel_distance=state["distance"], radius=radius)
+        return WheeledBase.omni(int(layout[-1]), wheel_distance=distance, radius=radius)
     if layout == "mecanum":
-        half = {"half_length": state["half_length"], "half_width": state["half_width"]}
-        return WheeledBase.mecanum(radius=radius, rollers=state["rollers"], **half)
-    if layout == "swerve":
-        return _swerve(state)
-    return WheeledBase(tuple(_wheel(row) for row in state["wheels"]))
+        return WheeledBase.mecanum(radius=radius, rollers=rollers, half_length=length, half_width=width)
+    return _swerve(length, width, radius, Twist(*motion))
 
 
-def _swerve(state: State) -> WheeledBase:
+_bases = Kept(_made, most=64)
+
+
+def _swerve(length: float, width: float, radius: float, twist: Twist) -> WheeledBase:
     """Ordinary wheels at the corners, each steered along its own velocity; straight ahead where it stands."""
-    corners = [(front * state["half_length"], left * state["half_width"]) for front, left in CORNERS]
-    straight = WheeledBase(tuple(Wheel(x, y, 0.0, state["radius"]) for x, y in corners))
-    ways = straight.wheel_velocities(twist_of(state)).tolist()
+    corners = [(front * length, left * width) for front, left in CORNERS]
+    straight = WheeledBase(tuple(Wheel(x, y, 0.0, radius) for x, y in corners))
+    ways = straight.wheel_velocities(twist).tolist()
     return WheeledBase(
-        tuple(Wheel(x, y, math.atan2(vy, vx), state["radius"]) for (x, y), (vx, vy) in zip(corners, ways, strict=True))
+        tuple(Wheel(x, y, math.atan2(vy, vx), radius) for (x, y), (vx, vy) in zip(corners, ways, strict=True))
     )
 
 

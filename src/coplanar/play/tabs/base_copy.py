@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from coplanar.errors import InvalidInput
+from typing import Any
+
 from coplanar.play import copying
 from coplanar.play.controls import State
 from coplanar.wheels import Wheel, WheeledBase
@@ -62,6 +63,20 @@ def _wheel(wheel: Wheel) -> str:
     return f"coplanar.Wheel({placed}{roller})"
 
 
-def yaml(_state: State) -> str:
-    """A scenario of the same."""
-    raise InvalidInput("as", "yaml", "python", "scenarios of this tab are not written yet")
+def scenario(state: State, base: WheeledBase) -> dict[str, Any]:
+    """The same as a scenario."""
+    twist = {key: state[key] for key in ("vx", "vy", "omega")}
+    return {"type": "wheels", "base": _layout(state, base), "twist": twist, "duration": state["duration"]}
+
+
+def _layout(state: State, base: WheeledBase) -> dict[str, Any]:
+    layout, radius = state["layout"], {"radius": state["radius"]}
+    if layout == "differential":
+        return {"type": layout, "half_track": state["half_width"]} | radius
+    if layout in ("omni3", "omni4"):
+        return {"type": "omni", "count": int(layout[-1]), "wheel_distance": state["distance"]} | radius
+    if layout == "mecanum":
+        return {"type": layout} | {key: state[key] for key in ("half_length", "half_width", "rollers")} | radius
+    keys = ("x", "y", "drive_angle", "radius", "roller_angle")
+    rows = [{key: getattr(wheel, key) for key in keys if getattr(wheel, key) is not None} for wheel in base.wheels]
+    return {"type": "wheels", "wheels": rows}

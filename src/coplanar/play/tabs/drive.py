@@ -105,9 +105,9 @@ class DriveTab:
         steps_of(state)
         return drive_copy.python(state)
 
-    def yaml(self, state: State) -> str:
-        """A scenario of the same."""
-        return drive_copy.yaml(state)
+    def scenario(self, state: State) -> dict[str, Any]:
+        """The same as a scenario file holds it."""
+        return drive_copy.scenario(state)
 
 
 def steps_of(state: State) -> int:

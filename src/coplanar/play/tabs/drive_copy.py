@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from coplanar.errors import InvalidInput
+from typing import Any
+
 from coplanar.play import copying
 from coplanar.play.controls import State
 from coplanar.play.tabs import strokes
@@ -38,7 +39,7 @@ def python(state: State) -> str:
         f"    coplanar.Unicycle(), tracker, reference, duration={n['duration']}, step={n['step']},",
         f'    method="{state["method"]}", limits=limits, start=start,',
         ")",
-        "speed = numpy.hypot(*reference.velocity(run.t).T).max()",
+        f"speed = numpy.hypot(*reference.velocity(numpy.linspace(0.0, {n['duration']}, 2001)).T).max()",
         f'report = tracker.stability({n["step"]}, method="{state["method"]}", speed=speed)',
         "print(report)",
         "print(run.status.value)",
@@ -61,6 +62,18 @@ def _limits(state: State, n: dict[str, str]) -> str:
     return f'Limits(v={n["v_limit"]}, omega={n["omega_limit"]}, mode="{state["mode"]}")'
 
 
-def yaml(_state: State) -> str:
-    """A scenario of the same."""
-    raise InvalidInput("as", "yaml", "python", "scenarios of this tab are not written yet")
+def scenario(state: State) -> dict[str, Any]:
+    """The same as a scenario."""
+    curve = strokes.data_of(state)
+    tracker = {"type": "point-tracker", "point": [state["px"], state["py"]]}
+    tracker |= {key: state[key] for key in ("kp", "kd", "ki", "feedforward", "error_against")}
+    data: dict[str, Any] = {"type": "track"}
+    if state["start"] == "free":
+        data["robot"] = {"start": {"x": state["start_x"], "y": state["start_y"], "theta": state["heading"]}}
+    data |= {
+        "reference": {"curve": curve}, "controller": tracker,
+        "integrator": {"method": state["method"], "step": state["step"]}, "duration": state["duration"],
+    }  # fmt: skip
+    if state["limited"]:
+        data["limits"] = {"v": state["v_limit"], "omega": state["omega_limit"], "mode": state["mode"]}
+    return data | {"unstable": "run"}

@@ -19,6 +19,7 @@ from coplanar.viz.scene import Scene
 FRAMES = 201  # of the animation and the series: samples of the run
 LIVE_FRAMES = 81  # while something is dragged
 KEPT_REPORTS = 64
+SPEEDS = 2001  # samples of the reference, to find how fast it moves
 WANTED = 161  # points of the reference as it is drawn
 FAR = 50.0  # times half the view: a path that goes further is cut there
 EDGE = 1.28  # a pole further out is drawn at the edge of its picture
@@ -34,8 +35,9 @@ def show(answer: Answer, state: State, follower: Follower, runs: dict[str, Run],
     tracker, reference, start = follower
     half = half_view(state)
     chosen, *_ = runs.values()
+    speed = top_speed(reference, state["duration"])
     report = _report((state["px"], state["py"]), (state["kp"], state["kd"], state["ki"]), tracker.feedforward,
-                     tracker.error_against, state["step"], state["method"], _top_speed(reference, chosen))  # fmt: skip
+                     tracker.error_against, state["step"], state["method"], speed)  # fmt: skip
     rows = shown_rows(chosen, half, LIVE_FRAMES if live else FRAMES)
     answer.pictures["main"] = _picture(follower, half, chosen, runs, rows)
     answer.pictures["poles"] = poles(report)
@@ -118,9 +120,9 @@ def _handles(answer: Answer, state: State, start: Pose, half: float) -> None:
     answer.handles.append(Handle("heading", "Heading at the start", nose, step=0.05, about=(x, y), value=said))
 
 
-def _top_speed(reference: Reference | HeldPoint, run: Run) -> float:
-    """Of the reference, where the run looks at it [m/s]."""
-    return float(np.hypot(*reference.velocity(run.t).T).max())
+def top_speed(reference: Reference | HeldPoint, duration: float) -> float:
+    """Of the reference, over the whole run [m/s]."""
+    return float(np.hypot(*reference.velocity(np.linspace(0.0, duration, SPEEDS)).T).max())
 
 
 def _say(answer: Answer, report: StabilityReport, run: Run, rows: np.ndarray, state: State) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from coplanar import checks
 from coplanar.errors import InvalidValue
@@ -74,9 +74,9 @@ class LabTab:
         """A program with the same motion and steps."""
         return lab_copy.python(state, count_of(state), problem_of(key_of(state)))
 
-    def yaml(self, state: State) -> str:
-        """A scenario of the same."""
-        return lab_copy.yaml(state)
+    def scenario(self, state: State) -> dict[str, Any]:
+        """The same as a scenario file holds it."""
+        return lab_copy.scenario(state)
 
 
 def count_of(state: State) -> int:

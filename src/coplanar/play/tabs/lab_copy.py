@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from coplanar.errors import InvalidInput
+from typing import Any
+
 from coplanar.play import copying
 from coplanar.play.controls import State
-from coplanar.play.tabs.problems import METHODS_SHOWN, Problem
+from coplanar.play.tabs.problems import COUNTS, METHODS_SHOWN, Problem
 
 SHOT = '''
 def rates(t, state):
@@ -50,9 +51,26 @@ def python(state: State, count: int, problem: Problem) -> str:
     able = [method for method in METHODS_SHOWN if problem.points(method, count) is not None]
     if len(able) < len(METHODS_SHOWN):
         lines[-2] = lines[-2].replace(repr(METHODS_SHOWN), repr(tuple(able)))
-    return copying.program(imports, lines, [(f"apart_{m}", f'numpy.hypot(*(ends["{m}"] - exact))') for m in able])
+    shown = [(f"apart_{m}", f'numpy.hypot(*(ends["{m}"] - exact))') for m in able]
+    if state["motion"] != "shot":
+        imports.append("from coplanar.motion import Comparison")
+        steps = f"[{n['duration']} / count for count in {COUNTS!r}]"
+        lines += [
+            "program = coplanar.Program([segment])",
+            f"compared = Comparison(program, coplanar.Pose(), {METHODS_SHOWN!r}, {steps})",
+            'print("orders", compared.orders())',
+        ]
+    return copying.program(imports, lines, shown)
 
 
-def yaml(_state: State) -> str:
-    """A scenario of the same."""
-    raise InvalidInput("as", "yaml", "python", "scenarios of this tab are not written yet")
+def scenario(state: State) -> dict[str, Any]:
+    """The same as a scenario: the integrators of a driven motion, or a shot."""
+    if state["motion"] == "shot":
+        launch = {"speed": state["speed"], "angle": state["angle"]}
+        projectile = {"mass": 1.0, "drag": state["drag"]}
+        return {"type": "shot", "projectile": projectile, "launch": launch, "duration": state["duration"]}
+    segment = {key: state[key] for key in ("v", "omega", "a", "alpha", "duration")}
+    return {
+        "type": "lab", "segments": [segment], "methods": list(METHODS_SHOWN),
+        "steps": sorted({state["step"], *(state["duration"] / count for count in COUNTS[1:7])}),
+    }  # fmt: skip

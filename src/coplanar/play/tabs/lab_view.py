@@ -6,16 +6,27 @@ import math
 
 import numpy as np
 
+from coplanar.integrators import METHODS
 from coplanar.play.answer import Answer, Handle
 from coplanar.play.controls import State
-from coplanar.play.tabs import stepping
-from coplanar.play.tabs.problems import COUNTS, METHODS_SHOWN, Problem, Study, key_of, order_of, problem_of, studies_of
+from coplanar.play.tabs import views
+from coplanar.play.tabs.problems import (
+    COUNTS,
+    METHODS_SHOWN,
+    MOST_STEPS,
+    Problem,
+    Study,
+    key_of,
+    order_of,
+    problem_of,
+    studies_of,
+)
 from coplanar.viz.scene import Scene
 
 FRAMES = 121
 LIVE_FRAMES = 61
 LIVE_STEPS = 120  # of all methods together, while something is dragged
-SLOPES = {"euler": 1, "midpoint": 2, "rk4": 4}  # evaluations of the rates a step
+SLOPES = {name: len(METHODS[name].b) for name in METHODS_SHOWN}  # evaluations of the rates a step
 NAMES = {"euler": "Euler", "midpoint": "RK2 (midpoint)", "rk4": "RK4"}
 ROLES = {"euler": "fifth", "midpoint": "second", "rk4": "fourth"}
 COLOURS = {NAMES[method]: role for method, role in ROLES.items()}
@@ -43,7 +54,7 @@ def show(answer: Answer, state: State, count: int, *, live: bool) -> None:
 
 
 def _picture(state: State, t: np.ndarray, exact: np.ndarray, paths: dict[str, np.ndarray | None]) -> Scene:
-    half = stepping.half_width(exact)
+    half = views.half_width(exact)
     shot = state["motion"] == "shot"
     view = (-0.1 * half, half, -0.4 * half, 0.7 * half) if shot else (-half, half, -half, half)
     scene = Scene(t, view=view)
@@ -57,7 +68,7 @@ def _picture(state: State, t: np.ndarray, exact: np.ndarray, paths: dict[str, np
 
 
 def _launch(answer: Answer, state: State, exact: np.ndarray) -> None:
-    reach = 0.25 * stepping.half_width(exact)
+    reach = 0.25 * views.half_width(exact)
     tip = (reach * math.cos(state["angle"]), reach * math.sin(state["angle"]))
     said = f"{math.degrees(state['angle']):.0f} degrees"
     answer.handles.append(Handle("launch", "Direction of the launch", tip, step=0.02, about=(0.0, 0.0), value=said))
@@ -80,24 +91,22 @@ def _distances(answer: Answer, paths: dict[str, np.ndarray | None], t: np.ndarra
 def _study(answer: Answer, problem: Problem, found: dict[str, Study]) -> None:
     steps = [problem.duration / count for count in COUNTS]
     errors = {NAMES[method]: [e if e > 0.0 else math.nan for e in study.errors] for method, study in found.items()}
-    lines = {name: e[::-1] for name, e in errors.items()}
-    answer.plot("Error at the end", "m", ("step [s]", steps[::-1]), lines, log=True, roles=COLOURS)
+    answer.plot("Largest error", "m", ("step [s]", steps), errors, log=True, roles=COLOURS)
     for method, study in found.items():
         if math.isfinite(study.order):
             answer.read(f"order_{method}", f"{NAMES[method]}, order", study.order, "", "Order, seen")
-        if math.isfinite(study.largest_step):
+        if study.largest_step > 0.0:
             label = f"{NAMES[method]}, step for 1 mm"
             answer.read(f"largest_step_{method}", label, study.largest_step, "s", "Largest step for 1 mm")
             _cost(answer, problem, method, study)
-        else:
-            answer.say("warn", f"{NAMES[method]} does not come within 1 mm by the steps that were tried")
+        elif study.largest_step == 0.0:
+            answer.say("warn", f"{NAMES[method]} takes more than {MOST_STEPS} steps to stay within 1 mm")
 
 
 def _cost(answer: Answer, problem: Problem, method: str, study: Study) -> None:
-    count = round(problem.duration / study.largest_step)
-    work = count * SLOPES[method]
+    count = math.ceil(problem.duration / study.largest_step - 1e-9)
     answer.say(
         "note",
-        f"{NAMES[method]} (order {order_of(method)}) ends within 1 mm with steps of {study.largest_step:.3g} s: "
-        f"{count} steps, {work} evaluations",
+        f"{NAMES[method]} (order {order_of(method)}) stays within 1 mm with steps of {study.largest_step:.3g} s: "
+        f"{count} steps, {count * SLOPES[method]} evaluations",
     )

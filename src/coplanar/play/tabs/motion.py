@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -91,9 +91,9 @@ class MotionTab:
         _check_step(state)
         return motion_copy.python(state, segments_of(state))
 
-    def yaml(self, state: State) -> str:
-        """A scenario of the same."""
-        return motion_copy.yaml(state)
+    def scenario(self, state: State) -> dict[str, Any]:
+        """The same as a scenario file holds it."""
+        return motion_copy.scenario(state, segments_of(state))
 
 
 def start_of(state: State) -> Pose:

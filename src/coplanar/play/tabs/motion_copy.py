@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from coplanar.errors import InvalidInput
+from typing import Any
+
 from coplanar.motion import Segment
 from coplanar.play import copying
 from coplanar.play.controls import State
@@ -13,17 +14,6 @@ SHOWN = (
     ("end_theta", "end.theta"),
     ("duration", "program.duration"),
 )
-STEPPED = '''
-def stepped(method):
-    """The last pose by an integrator, each segment in equal steps of at most STEP."""
-    pose = start.as_array()
-    for segment in program:
-        count = math.ceil(segment.duration / STEP - 1e-9)
-        t = numpy.linspace(0.0, segment.duration, count + 1)
-        rates = lambda time, now: segment.twist(time).in_world(now[2])
-        pose = coplanar.integrate_ode(rates, t, pose, method=method)[-1]
-    return pose
-'''
 
 
 def python(state: State, segments: list[Segment]) -> str:
@@ -37,13 +27,18 @@ def python(state: State, segments: list[Segment]) -> str:
     lines.append("print([segment.kind for segment in program])")
     if not state["compare"]:
         return copying.program(["import coplanar"], lines, SHOWN)
-    lines += [f"STEP = {copying.number(state['step'])}", "", STEPPED]
+    step = copying.number(state["step"])
+    lines.append(f"compared = Comparison(program, start, ('euler', 'rk4'), [{step}])")
     apart = [
-        (f"apart_{method}", f'math.hypot(*(stepped("{method}")[:2] - end.position))') for method in ("euler", "rk4")
+        (f"apart_{method}", f'numpy.hypot(*(compared.path("{method}", {step})[1].position[-1] - end.position))')
+        for method in ("euler", "rk4")
     ]
-    return copying.program(["import math", "", "import numpy", "", "import coplanar"], lines, (*SHOWN, *apart))
+    imports = ["import numpy", "", "import coplanar", "from coplanar.motion import Comparison"]
+    return copying.program(imports, lines, (*SHOWN, *apart))
 
 
-def yaml(_state: State) -> str:
-    """A scenario of the same."""
-    raise InvalidInput("as", "yaml", "python", "scenarios of this tab are not written yet")
+def scenario(state: State, segments: list[Segment]) -> dict[str, Any]:
+    """The same as a scenario."""
+    rows = [dict(zip(("v", "omega", "a", "alpha", "duration"), segment.parts, strict=True)) for segment in segments]
+    start = {"x": state["start_x"], "y": state["start_y"], "theta": state["heading"]}
+    return {"type": "program", "segments": rows, "start": start}

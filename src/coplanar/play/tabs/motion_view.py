@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
-from coplanar.motion import Program, Segment
+from coplanar.motion import Comparison, Program, Segment
 from coplanar.play.answer import Answer, Handle
 from coplanar.play.controls import State
-from coplanar.play.tabs import stepping
+from coplanar.play.tabs import views
 from coplanar.se2 import Pose
 from coplanar.viz.scene import Scene
 
@@ -36,15 +36,16 @@ def show(answer: Answer, segments: list[Segment], start: Pose, state: State, *, 
     table = program.pose(start, t).as_array()
     stepped = {}
     if state["compare"] and not live:
-        stepped = {method: stepping.segments_by(segments, start, state["step"], method) for method in ROLES}
-    half = stepping.half_width(table[:, :2], 2.0)
+        compared = Comparison(program, start, tuple(ROLES), [state["step"]])
+        stepped = {method: compared.path(method, state["step"]) for method in ROLES}
+    half = views.half_width(table[:, :2], 2.0)
     scene = Scene(t, view=(-half, half, -half, half))
     for i, segment in enumerate(segments):
         inside = (t >= program.knots[i]) & (t <= program.knots[i + 1])
         if segment.duration > 0.0 and inside.sum() > 1:
             scene = scene.curve(table[inside, :2], role=("first", "third", "second")[i % 3], opacity=0.55)
     for method, (_, poses) in stepped.items():
-        drawn = poses[_thinned(len(poses)), :2]
+        drawn = poses.position[_thinned(len(poses.x))]
         scene = scene.curve(drawn, role=ROLES[method], dashed=True)
         scene = scene.moving_point(drawn.reshape(1, -1), role=ROLES[method], size=2.0)
     size = 0.06 * half
@@ -98,15 +99,14 @@ def _read(answer: Answer, program: Program, segments: list[Segment], start: Pose
         answer.read(f"last_curvature_{i}", "curvature at its end", last, "1/m", group)
 
 
-def _compare(answer: Answer, program: Program, start: Pose, stepped: dict[str, stepping.Path]) -> None:
+def _compare(answer: Answer, program: Program, start: Pose, stepped: dict[str, tuple[np.ndarray, Pose]]) -> None:
     """Distance of the integrators from the exact path, at their own times."""
     lines: dict[str, np.ndarray] = {}
     t = np.zeros(1)
     for method, (every, poses) in stepped.items():
         rows = _thinned(len(every))
-        t, poses = every[rows], poses[rows]
-        exact = program.pose(start, t)
-        lines[method] = np.hypot(poses[:, 0] - exact.x, poses[:, 1] - exact.y)
+        t = every[rows]
+        lines[method] = np.hypot(*(poses.position[rows] - program.pose(start, t).position).T)
         answer.read(f"apart_{method}", f"{method} from exact, at the end", float(lines[method][-1]), "m", "Integrators")
     if lines:
         answer.plot("Distance from the exact path", "m", ("time [s]", t), lines, roles=ROLES)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -15,19 +14,15 @@ from coplanar.errors import InvalidValue
 from coplanar.flight import Projectile
 from coplanar.integrators import METHODS, integrate_ode
 from coplanar.laws import flight
-from coplanar.motion import Segment
+from coplanar.motion import Comparison, Program, Segment
 from coplanar.play.controls import State
 from coplanar.play.kept import Kept
 from coplanar.se2 import Pose
 
 METHODS_SHOWN = ("euler", "midpoint", "rk4")
-COUNTS = tuple(2**i for i in range(10))  # steps with which the error is measured
-MILLIMETRE = 1e-3  # [m] how near the end has to be for the largest step
-MOST_EVALUATIONS = 20_000  # of the rates in one try for it
-ROUNDS = 4  # of such tries
-MARGIN = 1.002  # above the count that the power law points at
-SHARPNESS = 1.02  # the ratio of a count that meets it and one that misses, where the search ends
-ROUNDING = 1e-12  # of the way: errors below this say nothing of the order
+COUNTS = tuple(2**i for i in range(9, -1, -1))  # steps with which the error is measured, the shortest step first
+MILLIMETRE = 1e-3  # [m] how far from the exact path is allowed for the largest step
+MOST_STEPS = 4096  # of one try for it: more take too long for a page that waits
 KEPT = 64
 
 _drag_rates = evaluator(flight.drag_rates)
@@ -59,11 +54,11 @@ class Problem:
             return None
 
     def error(self, method: str, count: int) -> float:
-        """Distance of the end from the exact one [m]; infinite where the steps do not lead to an end."""
+        """Largest distance from the exact path at the ends of the steps [m]; infinite where there is no path."""
         points = self.points(method, count)
         if points is None:
             return math.inf
-        return float(np.hypot(*(points[-1] - self.exact(np.array([self.duration]))[0])))
+        return float(np.hypot(*(points - self.exact(np.linspace(0.0, self.duration, count + 1))).T).max())
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,14 +66,15 @@ class Study:
     """How the error of one method depends on its step.
 
     Attributes:
-        errors: At the end, for each of ``COUNTS`` [m].
-        order: Observed between neighbouring counts; NaN where rounding rules.
-        largest_step: The largest one found that ends within a millimetre [s]; NaN where none was.
+        errors: The largest distance from the exact path, for each of ``COUNTS`` [m].
+        order: Observed; NaN where it was not.
+        largest_step: With which the method stays within a millimetre [s]; 0 where that takes more than
+            ``MOST_STEPS``, NaN where it was not looked for.
     """
 
     errors: tuple[float, ...]
-    order: float
-    largest_step: float
+    order: float = math.nan
+    largest_step: float = math.nan
 
 
 def key_of(state: State) -> Key:
@@ -94,12 +90,25 @@ def problem_of(key: Key) -> Problem:
 
 
 def studies(key: Key) -> dict[str, Study]:
-    """The study of every method that is shown."""
-    problem = problem_of(key)
-    return {method: _study(problem, method) for method in METHODS_SHOWN}
+    """The study of every method that is shown: of a driven motion the library's comparison, of a shot its errors."""
+    if key[0] == "shot":
+        problem = problem_of(key)
+        return {m: Study(tuple(problem.error(m, count) for count in COUNTS)) for m in METHODS_SHOWN}
+    duration, *parts = key[1:]
+    program = Program([Segment(*parts, duration=duration)])
+    compared = Comparison(program, Pose(), METHODS_SHOWN, [duration / count for count in COUNTS])
+    errors = compared.errors()
+    rows = zip(METHODS_SHOWN, errors.tolist(), compared.orders(errors).tolist(), strict=True)
+    return {m: Study(tuple(row), order, _largest_step(compared, m, row[0])) for m, row, order in rows}
 
 
 studies_of = Kept(studies, most=KEPT)
+
+
+def _largest_step(compared: Comparison, method: str, error: float) -> float:
+    """The library's answer, where the error of the shortest step promises one within ``MOST_STEPS``."""
+    promised = COUNTS[0] * (error / MILLIMETRE) ** (1.0 / METHODS[method].order)
+    return compared.largest_step(method, MILLIMETRE) if promised <= MOST_STEPS else 0.0
 
 
 def _segment(duration: float, v: float, omega: float, a: float, alpha: float) -> Problem:
@@ -121,38 +130,6 @@ def _shot(duration: float, speed: float, angle: float, drag: float) -> Problem:
         return np.array([vx, vy, *_drag_rates(vx, vy, k, g)])
 
     return Problem(rates, np.array([0.0, 0.0, shot.vx, shot.vy]), duration, lambda t: shot.at(t).position)
-
-
-def _study(problem: Problem, method: str) -> Study:
-    errors = tuple(problem.error(method, count) for count in COUNTS)
-    way = max(float(np.abs(problem.exact(np.array([problem.duration]))).max()), 1.0)
-    return Study(errors, _order(errors, ROUNDING * way), _largest_step(problem, method, errors))
-
-
-def _order(errors: tuple[float, ...], floor: float) -> float:
-    """From the finest pair of counts whose errors are above rounding."""
-    pairs = [(a, b) for a, b in itertools.pairwise(errors) if math.isfinite(a) and b > floor]
-    return math.log2(pairs[-1][0] / pairs[-1][1]) if pairs else math.nan
-
-
-def _largest_step(problem: Problem, method: str, errors: tuple[float, ...]) -> float:
-    """Between a count that misses and one that does not, narrowed to where error = C h^order points."""
-    missing = [i for i, error in enumerate(errors) if not error <= MILLIMETRE]
-    if not missing:
-        return problem.duration
-    last, order = missing[-1], order_of(method)
-    low, error = COUNTS[last], errors[last]
-    high = COUNTS[last + 1] if last + 1 < len(COUNTS) else 0  # 0 until a count has met it
-    for _ in range(ROUNDS):
-        if not math.isfinite(error) or 0 < high <= max(SHARPNESS * low, low + 1):
-            break
-        count = max(math.ceil(MARGIN * low * (error / MILLIMETRE) ** (1.0 / order)), low + 1)
-        count = min(count, high - 1) if high else count
-        if count * order > MOST_EVALUATIONS:
-            break
-        now = problem.error(method, count)
-        high, low, error = (count, low, error) if now <= MILLIMETRE else (high, count, now)
-    return problem.duration / high if high else math.nan
 
 
 def order_of(method: str) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from coplanar import checks
 from coplanar.flight import Aim, Projectile
@@ -62,9 +62,9 @@ class ShootTab:
         """A program with the same projectile and target."""
         return shoot_copy.python(state, aim_of(state))
 
-    def yaml(self, state: State) -> str:
-        """A scenario of the same."""
-        return shoot_copy.yaml(state)
+    def scenario(self, state: State) -> dict[str, Any]:
+        """The same as a scenario file holds it."""
+        return shoot_copy.scenario(state)
 
 
 def aim_of(state: State) -> Aim:

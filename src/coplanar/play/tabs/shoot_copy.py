@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
-from coplanar.errors import InvalidInput
 from coplanar.flight import Aim
 from coplanar.play import copying
 from coplanar.play.controls import State
@@ -33,6 +33,8 @@ def python(state: State, aim: Aim) -> str:
     return copying.program(["import coplanar"], lines, shown)
 
 
-def yaml(_state: State) -> str:
-    """A scenario of the same."""
-    raise InvalidInput("as", "yaml", "python", "scenarios of this tab are not written yet")
+def scenario(state: State) -> dict[str, Any]:
+    """The same as a scenario."""
+    projectile = {key: state[key] for key in ("mass", "drag", "gravity")}
+    given = {} if state["by"] == "least" else {state["by"]: state[state["by"]]}
+    return {"type": "aim", "projectile": projectile, "target": [state["target_x"], state["target_y"]], **given}

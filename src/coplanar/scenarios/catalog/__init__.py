@@ -7,9 +7,28 @@ from importlib import resources
 from coplanar.scenarios.problems import InvalidScenario, Problem, did_you_mean
 
 _NAMES = (
+    "frames",
+    "arm-pose",
     "arm-reach",
+    "trace-circle",
+    "trace-lemniscate",
+    "rolling-wheel",
+    "drive-square",
+    "arc-chain",
+    "clothoid",
+    "holonomic",
+    "omni-three",
+    "mecanum",
+    "ramp",
     "track-astroid",
     "track-astroid-p",
+    "drive-to-pose",
+    "shot",
+    "aim-time",
+    "aim-speed",
+    "aim-angle",
+    "aim-least",
+    "integrators",
 )
 
 

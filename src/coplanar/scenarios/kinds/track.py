@@ -85,6 +85,11 @@ class Track(Scenario):
         noise = None if self.noise is None else self.noise.build()
         return Loop(controller, reference, start, limits, noise, self._report(controller, reference))
 
+    @property
+    def rows_at_once(self) -> int:
+        """So many robots that their table holds about two million rows."""
+        return max(1, int(2_000_000 * self.integrator.step / self.duration))
+
     def _start(self, controller: Any, reference: Any) -> Pose | None:
         start = self.robot.start
         if (start.x is None) != (start.y is None):
