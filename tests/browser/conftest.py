@@ -74,7 +74,7 @@ def visit(browser, address):
     contexts, errors = [], []
 
     def visit(fragment="arm", *, at=address, **options):
-        context = browser.new_context(**{"viewport": WIDE} | options)
+        context = browser.new_context(**{"viewport": WIDE, "reduced_motion": "reduce"} | options)
         contexts.append(context)
         page = context.new_page()
         page.on("console", lambda message: message.type in ("error", "warning") and errors.append(message.text))
@@ -104,9 +104,10 @@ def until(page, expression, seconds=10.0):
 
 def rest(page):
     """Wait until nothing is asked, nothing is missing, and the view stands still."""
-    until(page, "!playground.desk.busy && !playground.desk.wish && !playground.desk.timer && !playground.stage.asked")
-    page.wait_for_timeout(250)
-    until(page, "!playground.desk.busy && !playground.desk.wish && !playground.desk.timer && !playground.stage.asked")
+    quiet = "!playground.desk.busy && !playground.desk.wish && !playground.desk.timer && !playground.stage.asked"
+    until(page, quiet)
+    page.wait_for_timeout(30)
+    until(page, quiet)
 
 
 def state_of(page):

@@ -7,9 +7,11 @@ import numpy as np
 from coplanar.viz.scene import Scene, player_source
 from tests.browser.conftest import until
 
-PAGE = """<!doctype html><html lang="en"><head><meta charset="utf-8"><title>player</title><style>{style}</style></head><body>
+PAGE = """<!doctype html><html lang="en"><head><meta charset="utf-8"><title>player</title>
+<style>{style}</style></head><body>
 <div class="player"><canvas tabindex="0" role="img" aria-label="scene"></canvas>
-<div class="controls"><button type="button">Play</button><input type="range" min="0" max="1000" value="0" aria-label="Time">
+<div class="controls"><button type="button">Play</button>
+<input type="range" min="0" max="1000" value="0" aria-label="Time">
 <output></output><select aria-label="Speed"><option value="1">1</option></select></div>
 <script type="application/json">{scene}</script></div><script>{script}</script></body></html>"""
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from coplanar import scenarios
 from coplanar.arms import Arm
 from coplanar.play import Session
 from tests.browser.conftest import playing, rest, state_of, until
@@ -231,42 +232,6 @@ def test_back_and_forward_walk_through_what_was_done(visit):
     assert state_of(page) == second
 
 
-@pytest.mark.parametrize("tab", TABS)
-def test_copied_python_runs_and_agrees(visit, tab):
-    page = visit(tab)
-    page.get_by_role("button", name="Python").click()
-    until(page, "document.querySelector('#copied-status').textContent !== ''")
-    code = page.locator("#copied-text").input_value()
-    page.get_by_role("button", name="Close").click()
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, check=True)
-    printed = dict(line.split(" = ", 1) for line in done.stdout.splitlines() if " = " in line)
-    numbers = {entry["key"]: entry["number"] for entry in answered(page)["readouts"] if "number" in entry}
-    shared = printed.keys() & numbers.keys()
-    assert len(shared) >= 2
-    for key in shared:
-        assert float(printed[key]) == pytest.approx(numbers[key], rel=1e-12, abs=1e-12), key
-
-
-@pytest.mark.parametrize("tab", TABS)
-def test_copied_yaml_is_a_scenario(visit, tab):
-    scenarios = pytest.importorskip("coplanar.scenarios")
-    page = visit(tab)
-    page.get_by_role("button", name="YAML").click()
-    until(page, "document.querySelector('#copied').open || !playground.notice.hidden")
-    if not page.evaluate("document.querySelector('#copied').open"):
-        pytest.skip(page.locator("#notice").inner_text())
-    scenarios.loads(page.locator("#copied-text").input_value())
-
-
-def test_without_a_clipboard_the_text_is_selected(visit):
-    page = visit("arm")
-    page.evaluate("navigator.clipboard.writeText = () => Promise.reject(new Error('no'))")
-    page.get_by_role("button", name="Python").click()
-    until(page, "document.querySelector('#copied-status').textContent.includes('selected')")
-    text = page.locator("#copied-text")
-    assert text.evaluate("(t) => t.selectionEnd - t.selectionStart === t.value.length && t.value.length > 50")
-
-
 def test_the_player_plays_pauses_steps_and_scrubs(visit):
     page = visit("motion")
     clock = "playground.clock.time"
@@ -331,24 +296,6 @@ def test_wheels_are_added_and_taken_away(visit):
     assert len(state_of(page)["wheels"]) == count
 
 
-def test_the_page_comes_back_when_the_server_does(visit):
-    with playing() as (_, at):
-        page = visit("arm", at=at)
-        drag(page, "tool", (0.5, 1.0))
-        state = state_of(page)
-    until(page, "!playground.notice.hidden && playground.notice.textContent.includes('connection')")
-    page.locator("[data-handle=tool]").focus()
-    page.keyboard.press("ArrowRight")
-    with playing(port=int(at.rsplit(":", 1)[1].strip("/"))):
-        until(page, "document.documentElement.dataset.connection === 'open'", 15)
-        rest(page)
-        assert page.locator("#notice").is_hidden()
-        assert state_of(page)["target_x"] == pytest.approx(state["target_x"] + 0.02)
-        visit.errors[:] = [
-            error for error in visit.errors if "ERR_CONNECTION_REFUSED" not in error and "1006" not in error
-        ]
-
-
 def test_the_rate_while_dragging(visit, capsys):
     """Round trips and frames a second with the mouse always moving; the numbers are for the reader."""
     for tab, handle in (("arm", "tool"), ("drive", "curve"), ("base", None), ("motion", "end"), ("shoot", "target")):
@@ -372,19 +319,6 @@ def test_the_rate_while_dragging(visit, capsys):
         assert answers > 5.0
         assert frames > 5.0
         page.close()
-
-
-@pytest.mark.parametrize("tab", TABS)
-@pytest.mark.parametrize("width", [360, 800])
-def test_narrow_screens_do_not_scroll_sideways(visit, tab, width):
-    page = visit(tab, viewport={"width": width, "height": 740}, is_mobile=width < 400, has_touch=width < 400)
-    assert page.evaluate("document.documentElement.scrollWidth") <= width
-    wide = page.evaluate(
-        """(width) => [...document.querySelectorAll("main *")].filter((e) =>
-            e.offsetParent && !e.closest(".handles") && e.getBoundingClientRect().right > width + 1).map((e) => e.outerHTML.slice(0, 80))""",
-        width,
-    )
-    assert wide == []
 
 
 def test_the_keyboard_reaches_everything(visit):
@@ -423,13 +357,81 @@ def test_nothing_is_loaded_from_elsewhere(visit):
     assert {"/".join(url.split("/")[:3]) for url in loaded} == {"/".join(page.url.split("/")[:3])}
 
 
-@pytest.mark.skipif(not AXE.exists(), reason="NOT RUN: axe-core is not installed (npm ci in tools/web)")
-@pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("tab", TABS)
-def test_axe_finds_nothing_serious(visit, tab, scheme):
-    page = visit(tab, color_scheme=scheme, bypass_csp=True)
+def test_copied_python_and_yaml_agree_with_the_page(visit, tab, tmp_path):
+    page = visit(tab)
+    page.get_by_role("button", name="Python").click()
+    until(page, "document.querySelector('#copied-status').textContent !== ''")
+    code = page.locator("#copied-text").input_value()
+    page.get_by_role("button", name="Close").click()
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, check=True)
+    printed = dict(line.split(" = ", 1) for line in done.stdout.splitlines() if " = " in line)
+    numbers = {entry["key"]: entry["number"] for entry in answered(page)["readouts"] if "number" in entry}
+    shared = printed.keys() & numbers.keys()
+    assert len(shared) >= 2
+    for key in shared:
+        assert float(printed[key]) == pytest.approx(numbers[key], rel=1e-12, abs=1e-12), key
+    page.get_by_role("button", name="YAML").click()
+    until(page, "document.querySelector('#copied').open")
+    path = tmp_path / "copied.yaml"
+    path.write_text(page.locator("#copied-text").input_value(), "utf-8")
+    assert scenarios.load(path).measure()
+
+
+def test_without_a_clipboard_the_text_is_selected(visit):
+    page = visit("arm")
+    page.evaluate("() => { navigator.clipboard.writeText = () => Promise.reject(new Error('no')); }")
+    page.get_by_role("button", name="Python").click()
+    until(page, "document.querySelector('#copied-status').textContent.includes('selected')")
+    text = page.locator("#copied-text")
+    assert text.evaluate("(t) => t.selectionEnd - t.selectionStart === t.value.length && t.value.length > 50")
+
+
+def test_the_page_comes_back_when_the_server_does(visit):
+    with playing() as (_, at):
+        page = visit("arm", at=at)
+        drag(page, "tool", (0.5, 1.0))
+        state = state_of(page)
+    until(page, "!playground.notice.hidden && playground.notice.textContent.includes('connection')")
+    page.locator("[data-handle=tool]").focus()
+    page.keyboard.press("ArrowRight")
+    with playing(port=int(at.rsplit(":", 1)[1].strip("/"))):
+        until(page, "document.documentElement.dataset.connection === 'open'", 15)
+        rest(page)
+        assert page.locator("#notice").is_hidden()
+        assert state_of(page)["target_x"] == pytest.approx(state["target_x"] + 0.02)
+        page.close()
+    assert all("ERR_CONNECTION_REFUSED" in error for error in visit.errors)
+    visit.errors.clear()
+
+
+@pytest.mark.parametrize("tab", TABS)
+def test_narrow_screens_do_not_scroll_sideways(visit, tab):
+    page = visit(tab, viewport={"width": 360, "height": 740}, is_mobile=True, has_touch=True)
+    for width in (360, 800):
+        page.set_viewport_size({"width": width, "height": 740})
+        page.wait_for_timeout(100)
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        outside = page.evaluate(
+            """(width) => [...document.querySelectorAll("main *")]
+                .filter((e) => e.offsetParent && !e.closest(".handles") && e.getBoundingClientRect().right > width + 1)
+                .map((e) => e.outerHTML.slice(0, 80))""",
+            width,
+        )
+        assert outside == []
+
+
+@pytest.mark.skipif(not AXE.exists(), reason="NOT RUN: axe-core is not installed (npm ci in tools/web)")
+@pytest.mark.parametrize("tab", TABS)
+def test_axe_finds_nothing_serious(visit, tab):
+    page = visit(tab, bypass_csp=True)
     page.add_script_tag(path=str(AXE))
-    found = page.evaluate("axe.run(document, { resultTypes: ['violations'] })")["violations"]
-    serious = [(v["id"], v["help"], [n["html"][:120] for n in v["nodes"]][:4]) for v in found
-               if v["impact"] in ("serious", "critical")]  # fmt: skip
-    assert json.dumps(serious, indent=1) == "[]"
+    for scheme in ("light", "dark"):
+        page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+        found = page.evaluate("axe.run(document, { resultTypes: ['violations'] })")["violations"]
+        serious = [
+            (violation["id"], violation["help"], [node["html"][:120] for node in violation["nodes"]][:4])
+            for violation in found
+            if violation["impact"] in ("serious", "critical")
+        ]
+        assert json.dumps(serious, indent=1) == "[]"

@@ -119,6 +119,14 @@ export class Framing {
     else if (!held && this.#leaves()) this.#go(union(this.bounds, this.wanted), false);
   }
 
+  /**
+   * Show all that Python would: there is room to draw in.
+   * @param {SceneData} scene
+   */
+  open(scene) {
+    if (this.bounds.some((value, i) => value !== scene.bounds[i])) this.#go(scene.bounds, false);
+  }
+
   /** The hand rests: come closer, or step back, where that shows more. */
   rest() {
     if (this.bounds.length === 0) return;

@@ -49,7 +49,7 @@ export class Stage {
       const picture = this.pictures.get(name) ?? this.#add(name, scene);
       picture.scene = scene;
       const places = shown.handles.filter((handle) => handle.picture === name).map((handle) => handle.at);
-      picture.framing.take(scene, places, this.held());
+      picture.framing.take(scene, places, this.held() || picture.ink.wanted !== undefined);
       picture.canvas.setAttribute("aria-label", name === "main" ? about : captioned(name));
     }
     this.handles = shown.handles;
@@ -64,7 +64,9 @@ export class Stage {
   /** The hand rests. */
   rest() {
     if (this.held()) return;
-    for (const picture of this.pictures.values()) picture.framing.rest();
+    for (const picture of this.pictures.values()) {
+      if (!picture.ink.wanted) picture.framing.rest();
+    }
   }
 
   /** Another tab: nothing of the old pictures stays. */
@@ -89,7 +91,10 @@ export class Stage {
    * @param {{most: number, reach: number, done: (points: number[][]) => void} | undefined} wanted
    */
   draw(name, wanted) {
-    for (const picture of this.pictures.values()) picture.ink.wait(picture.name === name ? wanted : undefined);
+    for (const picture of this.pictures.values()) {
+      picture.ink.wait(picture.name === name ? wanted : undefined);
+      if (picture.ink.wanted) picture.framing.open(picture.scene);
+    }
   }
 
   /** @param {Picture} picture */
