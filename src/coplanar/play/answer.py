@@ -126,7 +126,7 @@ def shown(value: float | str) -> str:
         return "infinite" if value > 0.0 else ("minus infinite" if value < 0.0 else "undefined")
     if value and not 1e-4 <= abs(value) < 1e7:
         return f"{value:.3e}"
-    return f"{round(value, 6):.{SHOWN_DIGITS}g}"
+    return f"{round(value, 6) + 0.0:.{SHOWN_DIGITS}g}"
 
 
 def _values(values: Iterable[float]) -> list[float | None]:

@@ -15,7 +15,7 @@ const LOG_STEPS = 1000;
  * @param {number} value
  */
 function shown(value) {
-  return String(Number(value.toPrecision(6)));
+  return String(Number(value.toPrecision(5)));
 }
 
 /**
