@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from coplanar.run import Run
-
-if TYPE_CHECKING:
-    from coplanar.scenarios.scenario import Scenario
 
 Table = Mapping[str, Sequence[Any] | Any]  # column name to values: numbers, or words
 
@@ -46,7 +43,7 @@ class Outcome:
         warnings: Sentences to know.
     """
 
-    scenario: Scenario
+    scenario: Any  # a Scenario, whose kind says which keys it has
     ok: bool
     status: str
     headline: str
@@ -61,17 +58,17 @@ class Outcome:
     @property
     def name(self) -> str:
         """The scenario's name, fit for a folder."""
-        return self.scenario.name
+        return str(self.scenario.name)
 
     @property
     def title(self) -> str:
         """What the scenario shows, in a line."""
-        return self.scenario.title
+        return str(self.scenario.title)
 
     @property
     def story(self) -> str:
         """What the scenario says about itself."""
-        return self.scenario.description
+        return str(self.scenario.description)
 
 
 def plain(numbers: Mapping[str, Any]) -> dict[str, Any]:

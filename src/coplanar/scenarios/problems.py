@@ -34,6 +34,10 @@ class Problem:
     remedy: str = ""
     line: int | None = None
 
+    def __post_init__(self) -> None:
+        for name in ("key", "given", "needed", "remedy"):
+            object.__setattr__(self, name, printable(getattr(self, name)))
+
     def __str__(self) -> str:
         """The problem in one line."""
         what = f"{self.key} = {self.given}" if self.key and self.given else self.key or self.given
@@ -54,7 +58,8 @@ class InvalidScenario(InvalidInput):
         self.problems, self.source = tuple(problems), source
         first = self.problems[0]
         super().__init__(first.key or source or "scenario", first.given, first.needed, first.remedy)
-        told = [f"{source}: {problem}" if source else str(problem) for problem in self.problems[:MOST_TOLD]]
+        place = f"{printable(source)}: " if source else ""
+        told = [f"{place}{problem}" for problem in self.problems[:MOST_TOLD]]
         more = len(self.problems) - MOST_TOLD
         self.args = ("\n".join([*told, f"and {more} problems more"] if more > 0 else told),)
 
@@ -66,7 +71,7 @@ def did_you_mean(given: object, known: Iterable[str]) -> str:
         >>> did_you_mean("leminscate", ["circle", "lemniscate"])
         "did you mean 'lemniscate'?"
     """
-    near = difflib.get_close_matches(str(given)[:SHORT], list(known), n=1)
+    near = difflib.get_close_matches(given[:SHORT], list(known), n=1) if isinstance(given, str) else []
     return f"did you mean {near[0]!r}?" if near else ""
 
 
@@ -75,13 +80,22 @@ def shown(value: object) -> str:
     if isinstance(value, int) and value.bit_length() > 4 * SHORT:
         return "a whole number of hundreds of digits"
     text = repr(value) if not isinstance(value, dict | list | tuple) else _outline(value)
-    printable = "".join(c if c.isprintable() else "?" for c in text[: SHORT + 1])
-    return printable if len(text) <= SHORT else printable[: SHORT - 3] + "..."
+    return printable(text) if len(text) <= SHORT else printable(text[: SHORT - 3]) + "..."
+
+
+def printable(text: str) -> str:
+    r"""A text without what a terminal would take for a command; half characters cannot even be written.
+
+    Example:
+        >>> printable("a\x1b[31mb")
+        'a?[31mb'
+    """
+    return text if text.isprintable() else "".join(c if c.isprintable() else "?" for c in text)
 
 
 def key_text(parts: Iterable[object]) -> str:
     """A path of keys and places as one printable text."""
-    return ".".join("".join(c if c.isprintable() else "?" for c in str(part)[: 2 * SHORT]) for part in parts)
+    return ".".join(printable(str(part)[: 2 * SHORT]) for part in parts)
 
 
 def _outline(value: dict[object, object] | list[object] | tuple[object, ...]) -> str:

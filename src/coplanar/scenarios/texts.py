@@ -18,9 +18,12 @@ from coplanar.scenarios.problems import InvalidScenario, Problem, key_text, show
 
 LARGEST_TEXT = 256 * 1024  # characters of a scenario
 DEEPEST = 24  # mappings and lists inside one another
-MOST_VALUES = 50_000  # keys and values, each alias counted as often as it is used
+MOST_VALUES = 40_000  # keys and values, each alias counted as often as it is used
+_SIZE = f"at most {MOST_VALUES} values, in at most {DEEPEST} levels of mappings and lists"
 _WHOLE = re.compile(r"[-+]?[0-9]+", re.ASCII)
 _NUMBER = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?", re.ASCII)
+_PART = r"(?:[\w-]++|\"[^\"\n]*+\"|'[^'\n]*+')"
+_DOTTED = re.compile(rf"(?<![\w\"'-]){_PART}(?:[ \t]*+\.[ \t]*+{_PART}){{{DEEPEST},}}+")
 _WORDS = {
     **dict.fromkeys(("", "~", "null", "Null", "NULL")),
     **dict.fromkeys(("true", "True", "TRUE"), True),
@@ -65,7 +68,7 @@ def parsed(text: str, form: str, source: str) -> Parsed:
     except _Refused as error:
         raise InvalidScenario([error.problem], source) from None
     except RecursionError:
-        refuse(source, "", "", f"at most {DEEPEST} levels of mappings and lists")
+        refuse(source, "", "", _SIZE)
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         refuse(source, "", _sentence(error), f"{form.upper()} that can be read", mark.line + 1 if mark else None)
@@ -98,14 +101,14 @@ def _line_of(error: Exception) -> int | None:
 
 
 class _Loader(yaml.SafeLoader):
-    """PyYAML's composer with a bound on the depth of its nodes."""
+    """PyYAML's composer with a bound on its nodes and their depth."""
 
-    depth = 0
+    depth = count = 0
 
     def compose_node(self, parent: Any, index: Any) -> Any:
-        self.depth += 1
-        if self.depth > DEEPEST:
-            raise _Refused((), "", f"at most {DEEPEST} levels of mappings and lists", self.line + 1)
+        self.depth, self.count = self.depth + 1, self.count + 1
+        if self.depth > DEEPEST or self.count > MOST_VALUES:
+            raise _Refused((), "", _SIZE, self.line + 1)
         node = super().compose_node(parent, index)
         self.depth -= 1
         return node
@@ -121,7 +124,7 @@ class _Tree:
     def data(self, node: yaml.Node, place: Place) -> Any:
         self.count += 1
         if self.count > MOST_VALUES or len(place) > DEEPEST:
-            raise _Refused((), "", f"at most {MOST_VALUES} values and {DEEPEST} levels", node.start_mark.line + 1)
+            raise _Refused((), "", _SIZE, node.start_mark.line + 1)
         self.lines.setdefault(place, node.start_mark.line + 1)
         if isinstance(node, yaml.MappingNode):
             return self._mapping(node, place)
@@ -187,6 +190,10 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _from_toml(text: str) -> tuple[Any, dict[Place, int]]:
+    deep = _DOTTED.search(text)
+    if deep:  # tomllib takes time as the square of such a key's length
+        line = text.count("\n", 0, deep.start()) + 1
+        raise _Refused((), "a dotted key", _SIZE, line)
     data = tomllib.loads(text)
     return data, _lines_of_toml(text, data)
 

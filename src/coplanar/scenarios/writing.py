@@ -18,6 +18,7 @@ from coplanar.scenarios.validation import keys_of
 SCHEMA_FILE = "schema.json"
 WIDTH = 108  # characters of a line before a long text is folded
 _FOLDS = re.compile(r"[!-~]+( [!-~]+)*")  # words of ASCII with one space between them: folding loses nothing
+_FOLD = textwrap.TextWrapper(WIDTH, break_long_words=False, break_on_hyphens=False)
 _PLAIN = re.compile(r"[A-Za-z][A-Za-z0-9_/-]*( [A-Za-z0-9_/-]+)*")
 _WORDS = frozenset(["true", "false", "null", "yes", "no", "on", "off", "y", "n", "inf", "nan"])
 
@@ -40,9 +41,7 @@ def _mapping(data: dict[str, Any], model: Any, depth: int, comments: bool) -> It
         head = f"{' ' * depth}{_text(key)}:"
         if isinstance(value, str) and len(value) > WIDTH and _FOLDS.fullmatch(value):
             yield f"{head} >-{comment}"
-            yield from textwrap.wrap(
-                value, WIDTH, initial_indent=" " * (depth + 2), subsequent_indent=" " * (depth + 2)
-            )
+            yield from (f"{' ' * (depth + 2)}{line}" for line in _FOLD.wrap(value))
         elif isinstance(value, dict) and value:
             yield head + comment
             yield from _mapping(value, _model_for(annotation, value), depth + 2, comments)

@@ -78,9 +78,11 @@ class Wheels(Scenario):
             name: np.full(len(t), part) for name, part in zip(("vx", "vy", "omega"), built.twist.parts, strict=True)
         }
         size = max(1.0, float(np.abs(rates).max()))
-        twist = self.twist
+        twist = built.twist
         possible = bool(built.feasible.is_feasible)
         sentences = tuple(finding.sentence for finding in self._findings(built))
+        wanted = f"({twist.vx:g}, {twist.vy:g}) m/s and {twist.omega:g} rad/s"
+        told = f"{', '.join(f'{r:+.2f}' for r in rates)} rad/s for {wanted}"
         full = base.rank == 3  # otherwise the rates do not determine the twist, and the way back is another one
         return self._told(
             built,
@@ -89,8 +91,7 @@ class Wheels(Scenario):
             run=Run(columns | commands, "body"),
             ok=possible,
             status=built.feasible.status.value if possible else sentences[0],
-            headline=f"{', '.join(f'{r:+.2f}' for r in rates)} rad/s for ({twist.vx:g}, {twist.vy:g}) m/s and "
-            f"{twist.omega:g} rad/s",
+            headline=told if possible else f"{sentences[0]}; without it {told}",
             check=f"velocities of the contacts in complex numbers: {error:.0e} rad/s; forward of inverse: {back:.0e}",
             passed=bool(error < 1e-12 * size and (back < 1e-12 * size or not full)),
             tables={"run.csv": {"wheel": base.names, "rate": rates}, "path.csv": columns},
