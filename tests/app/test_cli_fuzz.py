@@ -14,7 +14,7 @@ from coplanar.cli import app
 from coplanar.cli.commands import COMMANDS
 from tests.app.commands import run
 
-SLOW = {"tour", "lab"}  # the first writes figures; the second may be asked for minutes of work
+SLOW = {"tour", "lab", "play"}  # they write figures, may be asked for minutes of work, serve until they are stopped
 PATIENT = settings(
     deadline=20_000, max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow]
 )

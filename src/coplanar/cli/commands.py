@@ -36,6 +36,7 @@ COMMANDS = {
     "wheels": "wheels",
     "odometry": "odometry",
     "lab": "lab",
+    "play": "play",
     "doctor": "doctor",
 }  # name of the command and of its function, and the module in coplanar.cli that holds it
 

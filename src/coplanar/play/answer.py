@@ -93,12 +93,16 @@ class Answer:
         lines: Mapping[str, Iterable[float]],
         *,
         log: bool = False,
+        roles: Mapping[str, str] | None = None,
     ) -> None:
-        """Add a series: ``x`` is its label and values, ``lines`` the values by name."""
+        """Add a series: ``x`` is its label and values, ``lines`` the values by name, ``roles`` their colours."""
         label, places = x
         entry = {
             "title": title, "unit": unit, "x": {"label": label, "values": _values(places)},
-            "lines": [{"label": name, "values": _values(values)} for name, values in lines.items()],
+            "lines": [
+                {"label": name, "values": _values(values), "role": (roles or {}).get(name, "")}
+                for name, values in lines.items()
+            ],
         }  # fmt: skip
         self.series.append(entry | ({"log": True} if log else {}))
 
@@ -122,7 +126,7 @@ def shown(value: float | str) -> str:
         return "infinite" if value > 0.0 else ("minus infinite" if value < 0.0 else "undefined")
     if value and not 1e-4 <= abs(value) < 1e7:
         return f"{value:.3e}"
-    return f"{round(value, 6):.{SHOWN_DIGITS}g}"
+    return f"{round(value, 6) + 0.0:.{SHOWN_DIGITS}g}"
 
 
 def _values(values: Iterable[float]) -> list[float | None]:

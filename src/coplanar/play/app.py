@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import json
 import os
 import socket
 import sys
@@ -9,46 +11,57 @@ import threading
 import webbrowser
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import uvicorn
+from starlette.types import ASGIApp
 
 from coplanar.errors import InvalidValue
+from coplanar.play.controls import State
 from coplanar.play.doors import Doors, is_local
 from coplanar.play.limits import Limits
+from coplanar.play.scenarios import opened
 from coplanar.play.server import application
 from coplanar.play.session import Session
 from coplanar.play.wire import PromptHttp, PromptSocket
+
+if TYPE_CHECKING:
+    from coplanar.scenarios import Scenario
 
 SWITCH = 0.001  # [s] how long a computing thread keeps the interpreter from the event loop
 
 
 def play(
+    scenario: Scenario | str | Path | None = None,
     *,
     host: str = "127.0.0.1",
     port: int = 0,
     browser: bool = True,
-    fragment: str = "",
     limits: Limits | None = None,
     say: Callable[[str], object] | None = None,
 ) -> None:
     """Serve the playground until Ctrl-C.
 
     Args:
+        scenario: What the page shows first: a scenario, its file, or its name in the catalog; the Arm tab if None.
         host: The address to listen at; other machines reach it only if this is not a loopback address.
         port: The port; any free one for 0.
         browser: Whether to open the page.
-        fragment: What the page shows first: the part of a share link after ``#``.
         limits: What one browser may ask for.
         say: Takes sentences for the user; standard output if None.
 
     Raises:
         InvalidValue: If nothing can listen at that address and port.
+        InvalidInput: If the playground cannot show the scenario.
     """
     say, limits = say or _say, limits or Limits()
+    fragment = "" if scenario is None else fragment_of(*_opened(scenario))
     listener = _listener(host, port)
-    address = _address(listener, host) + (f"#{fragment}" if fragment else "")
+    address = _address(listener, host) + fragment
     session = Session()
-    server = Playground(_settings(session, host, limits), partial(_welcome, address, host, browser, say))
+    app = application(session.answer, Doors.of(host), limits)
+    server = Playground(settings(app, limits), partial(_welcome, address, host, browser, say))
     switch = sys.getswitchinterval()
     sys.setswitchinterval(SWITCH)
     threading.Thread(target=session.warm, daemon=True).start()
@@ -74,9 +87,27 @@ class Playground(uvicorn.Server):
         self.ready()
 
 
-def _settings(session: Session, host: str, limits: Limits) -> uvicorn.Config:
+def fragment_of(tab: str, state: State) -> str:
+    """The end of a link to a tab in a state, as the page writes it.
+
+    Example:
+        >>> fragment_of("arm", {"l1": 2.0})
+        '#arm=eyJsMSI6Mi4wfQ'
+    """
+    code = base64.urlsafe_b64encode(json.dumps(state, separators=(",", ":")).encode())
+    return f"#{tab}={code.decode().rstrip('=')}"
+
+
+def _opened(scenario: Scenario | str | Path) -> tuple[str, State]:
+    from coplanar.scenarios import load
+
+    return opened(load(scenario) if isinstance(scenario, str | Path) else scenario)
+
+
+def settings(app: ASGIApp, limits: Limits) -> uvicorn.Config:
+    """How uvicorn serves an application within the limits: no logs, no compression, nothing waited for without end."""
     return uvicorn.Config(
-        application(session.answer, Doors.of(host), limits),
+        app,
         http=partial(PromptHttp, patience=limits.patience),  # type: ignore[arg-type]
         ws=partial(PromptSocket, patience=limits.patience),  # type: ignore[arg-type]
         loop="asyncio",

@@ -174,30 +174,32 @@ class Rows(Control):
     Attributes:
         fields: Controls of one row.
         default: Rows.
-        most: How many rows at most; at least one.
+        most: How many rows at most.
         row: What one row is called.
+        least: How many rows at least.
     """
 
     fields: tuple[Slider | Choice | Switch, ...]
     default: list[State]
     most: int
     row: str
+    least: int = 1
 
     def checked(self, value: Any) -> list[State]:
         """The rows, missing fields filled with their defaults.
 
         Raises:
-            InvalidShape: If it is no list of rows, empty or too long.
+            InvalidShape: If it is no list of rows, too short or too long.
             InvalidInput: As the fields do, naming the row.
         """
-        if not isinstance(value, list) or not 1 <= len(value) <= self.most:
-            raise InvalidShape(self.key, _size(value), f"1 to {self.most} rows")
+        if not isinstance(value, list) or not self.least <= len(value) <= self.most:
+            raise InvalidShape(self.key, _size(value), f"{self.least} to {self.most} rows")
         return [checked_state(self.fields, row, prefix=f"{self.key}.{i}") for i, row in enumerate(value)]
 
     def as_mapping(self) -> dict[str, Any]:
         """The control as the page reads it."""
         fields = [one.as_mapping() for one in self.fields]
-        return self.described("list", fields=fields, min=1, max=self.most, row=self.row, default=self.default)
+        return self.described("list", fields=fields, min=self.least, max=self.most, row=self.row, default=self.default)
 
 
 AnyControl = Slider | Choice | Switch | Stroke | Rows

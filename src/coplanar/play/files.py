@@ -9,9 +9,11 @@ from coplanar.viz.web import palette_css
 
 _TYPES = {"html": "text/html", "css": "text/css", "js": "text/javascript", "svg": "image/svg+xml", "txt": "text/plain"}
 _OWN = (
-    "index.html", "page.css", "icon.svg", "theme.js", "app.js",
+    "index.html", "page.css", "controls.css", "icon.svg", "theme.js", "app.js", "address.js", "charts.js",
+    "connection.js", "controls.js", "copying.js", "desk.js", "elements.js", "framing.js", "handles.js", "ink.js",
+    "readings.js", "stage.js", "tabs.js", "transport.js", "types.js", "widgets.js",
 )  # fmt: skip
-_SHARED = ("draw.js", "player.js", "player.css")
+_SHARED = ("view.js", "grid.js", "draw.js", "player.js", "player.css")
 _VENDORED = ("uPlot.esm.js", "uPlot.min.css", "uPlot.LICENSE.txt")
 
 
@@ -27,8 +29,8 @@ def files() -> dict[str, File]:
     """Every path that is answered, and with what.
 
     Example:
-        >>> sorted(files())[:2]
-        ['/', '/app.js']
+        >>> files()["/"].media_type
+        'text/html'
     """
     play, web = resources.files("coplanar.play") / "static", resources.files("coplanar.viz") / "web"
     listed = {name: play / name for name in _OWN} | {name: web / name for name in _SHARED}

@@ -14,11 +14,11 @@ Every request carries the whole state of its tab, so that an answer depends on n
             "handles": [{"id", "label", "at": [x, y], "picture", "keys": {"step", "unit"}, "value"}],
             "readouts": [{"key", "label", "value", "unit", "group", "number"}],
             "sentences": [{"tone": "good|note|warn|no", "text"}],
-            "series": [{"title", "unit", "x": {"label", "values"}, "lines": [{"label", "values"}]}]}
+            "series": [{"title", "unit", "x": {"label", "values"}, "lines": [{"label", "values", "role"}]}]}
         ``complete`` is false where a live answer left something out: ask again with the returned state, not live, when
         the hand rests. ``value`` of a readout is text; ``number``, where present, the number that it was made from.
         A scene is described by ``coplanar.viz.scene``. ``null`` among the values of a series is a gap. A series has
-        "log": true where both axes are logarithmic.
+        "log": true where both axes are logarithmic; the ``role`` of a line is its colour, empty for the next one.
     {"id": n, "do": "copy", "as": "python" | "yaml", "tab", "state"}
         -> {"id", "ok": true, "text"}
     anything else

@@ -1,8 +1,8 @@
 """The server: a fixed list of files, and one WebSocket whose answers are computed off the event loop.
 
 A connection has one message under way and one waiting; a newer one takes the place of the one that waits. Reading
-stops where the sender is ahead of its rate, so a flood stays in the sender's own socket, and computing is rationed by
-processor time, so an expensive question delays its asker.
+stops where the sender is ahead of its rate, so a flood stays in the sender's own socket. Computing is rationed by
+processor time: who asks for more than a share waits, and of those who wait whoever has used least goes first.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import partial
 
 from starlette.applications import Starlette
 from starlette.requests import Request
@@ -23,7 +24,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from coplanar.play.doors import Doors, Guarded
 from coplanar.play.files import File, files
-from coplanar.play.limits import Allowance, Limits
+from coplanar.play.limits import Allowance, Limits, Turns, Use
 
 Answer = Callable[[str], str]
 
@@ -58,9 +59,11 @@ class Server:
     limits: Limits
     open: int = 0
     pool: ThreadPoolExecutor = field(init=False)
+    turns: Turns = field(init=False)
 
     def __post_init__(self) -> None:
         self.pool = ThreadPoolExecutor(self.limits.workers, thread_name_prefix="coplanar-play")
+        self.turns = Turns(self.limits.workers)
 
     async def connect(self, socket: WebSocket) -> None:
         """Serve one WebSocket until it closes."""
@@ -69,7 +72,7 @@ class Server:
             await socket.close(FULL, f"{self.open} pages are open already; close one of them")
             return
         self.open += 1
-        connection = Connection(socket, self.answer, self.limits, self.pool)
+        connection = Connection(socket, self)
         try:
             await connection.serve()
         finally:
@@ -82,9 +85,7 @@ class Connection:
     """One browser: what it asked last, what is being computed for it, and what it may still spend."""
 
     socket: WebSocket
-    answer: Answer
-    limits: Limits
-    pool: ThreadPoolExecutor
+    server: Server
     newest: str = ""
     arrived: asyncio.Event = field(default_factory=asyncio.Event)
     computing: asyncio.Future[tuple[str, float]] | None = None
@@ -108,10 +109,11 @@ class Connection:
             await asyncio.wait([self.computing])
 
     async def _read(self) -> None:
-        messages = Allowance(self.limits.rate, self.limits.burst)
+        limits = self.server.limits
+        messages = Allowance(limits.rate, limits.burst)
         while True:
             try:
-                async with asyncio.timeout(self.limits.idle):
+                async with asyncio.timeout(limits.idle):
                     message = await self.socket.receive()
             except TimeoutError:
                 await self.socket.close(IDLE, "nothing was asked for a long time")
@@ -127,15 +129,23 @@ class Connection:
             await asyncio.sleep(messages.spend(1.0))
 
     async def _reply(self) -> None:
-        processor = Allowance(self.limits.share, self.limits.reserve)
-        loop = asyncio.get_running_loop()
+        server, loop = self.server, asyncio.get_running_loop()
+        processor, use = Allowance(server.limits.share, server.limits.reserve), Use()
         while True:
             await self.arrived.wait()
+            used = use.add(0.0)
+            await server.turns.take(used)
             self.arrived.clear()
-            self.computing = loop.run_in_executor(self.pool, _timed, self.answer, self.newest)
+            self.computing = loop.run_in_executor(server.pool, _timed, server.answer, self.newest)
+            self.computing.add_done_callback(partial(_give, server.turns, used))
             text, seconds = await asyncio.shield(self.computing)
+            use.add(seconds)
             await self.socket.send_text(text)
             await asyncio.sleep(processor.spend(seconds))
+
+
+def _give(turns: Turns, used: float, _: object) -> None:
+    turns.give(used)
 
 
 def _timed(answer: Answer, text: str) -> tuple[str, float]:

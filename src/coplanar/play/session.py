@@ -8,7 +8,7 @@ from typing import Any
 
 from coplanar import checks
 from coplanar.errors import CoplanarError, InvalidInput, InvalidShape, InvalidValue, UnknownName
-from coplanar.play import protocol
+from coplanar.play import protocol, scenarios
 from coplanar.play.controls import State, checked_state, point_of
 from coplanar.play.tab import Tab
 from coplanar.play.tabs import TABS
@@ -98,7 +98,7 @@ def _copy(request: dict[str, Any]) -> dict[str, Any]:
     if not isinstance(form, str) or form not in ("python", "yaml"):
         raise UnknownName("as", form, ("python", "yaml"))
     state = tab.settled(state, "")
-    return {"text": tab.python(state) if form == "python" else tab.yaml(state)}
+    return {"text": tab.python(state) if form == "python" else scenarios.text_of(tab, state)}
 
 
 def _tab_and_state(request: dict[str, Any]) -> tuple[Tab, State]:

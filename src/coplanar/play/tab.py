@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Protocol
+from typing import Any, ClassVar, Protocol
 
 from coplanar.play.answer import Answer
 from coplanar.play.controls import AnyControl, State
@@ -32,6 +32,6 @@ class Tab(Protocol):
         """A program that prints the same numbers."""
         ...
 
-    def yaml(self, state: State) -> str:
-        """A scenario file of the same."""
+    def scenario(self, state: State) -> dict[str, Any]:
+        """The same as a scenario file holds it."""
         ...

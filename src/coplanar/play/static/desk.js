@@ -81,6 +81,11 @@ export class Desk {
     this.#add({ edits: {}, live: true, nudge: { ...nudge, by: [right + nudge.by[0], up + nudge.by[1]] } });
   }
 
+  /** The hand lets go. */
+  leave() {
+    this.#restart(true);
+  }
+
   /** @param {Wish} wish */
   #add(wish) {
     const edits = { ...this.wish?.edits, ...wish.edits };

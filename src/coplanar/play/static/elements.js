@@ -38,3 +38,13 @@ export function byId(id, kind) {
 export function write(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
+
+const RAISED = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079";
+
+/**
+ * A unit with its powers raised.
+ * @param {string} unit
+ */
+export function raised(unit) {
+  return unit.replace(/\^(\d)/g, (_, digit) => RAISED[Number(digit)]);
+}

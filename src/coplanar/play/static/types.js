@@ -47,7 +47,7 @@
  * @property {string} title
  * @property {string} unit
  * @property {{label: string, values: (number | null)[]}} x
- * @property {{label: string, values: (number | null)[]}[]} lines
+ * @property {{label: string, values: (number | null)[], role: string}[]} lines
  * @property {boolean} [log]
  */
 

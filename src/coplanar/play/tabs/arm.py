@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -96,9 +96,9 @@ class ArmTab:
         """A program with the same arm, target or curve."""
         return arm_copy.python(state, arm_of(state), strokes.curve_of(state), ROWS)
 
-    def yaml(self, state: State) -> str:
-        """A scenario of the same."""
-        return arm_copy.yaml(state)
+    def scenario(self, state: State) -> dict[str, Any]:
+        """The same as a scenario file holds it."""
+        return arm_copy.scenario(state, arm_of(state), strokes.curve_of(state), ROWS)
 
     def _trace(self, state: State, arm: Arm, live: bool) -> Trace | None:
         """The arm along the curve; None without one, and for three links while something is dragged."""
@@ -135,6 +135,8 @@ def _settled(state: State, changed: str) -> State:
     elif changed in ("q1", "q2", "q3"):
         follow = "joints"
     state = state | {"follow": follow}
+    if changed == "elbow":
+        state["q2"] = -state["q2"]  # the other elbow is looked for on the other side
     arm = arm_of(state)
     if follow == "joints":
         x, y = arm.forward(joints_of(state)).position.tolist()

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from coplanar.arms import Arm
 from coplanar.curves import Curve
-from coplanar.errors import InvalidInput
 from coplanar.play import copying
 from coplanar.play.controls import State
 from coplanar.play.tabs import strokes
@@ -38,6 +39,17 @@ def python(state: State, arm: Arm, curve: Curve | None, rows: int) -> str:
     return copying.program(["import coplanar"], lines, shown)
 
 
-def yaml(_state: State) -> str:
-    """A scenario of the same."""
-    raise InvalidInput("as", "yaml", "python", "scenarios of this tab are not written yet")
+def scenario(state: State, arm: Arm, curve: Curve | None, rows: int) -> dict[str, Any]:
+    """The same as a scenario: the arm's pose, its reach for the target, or its way along the curve."""
+    drawn: dict[str, Any] = {"links": list(arm.links)}
+    if arm.limits is not None:
+        drawn["limits"] = [list(pair) for pair in arm.limits]
+    q = [state[f"q{i}"] for i in range(1, arm.n + 1)]
+    if curve is not None:
+        way = {"points": rows, "near": q, "at_singular": state["at_singular"], "duration": state["duration"]}
+        return {"type": "arm-trace", "arm": drawn, "curve": strokes.data_of(state), **way}
+    if state["follow"] == "joints":
+        return {"type": "arm-pose", "arm": drawn, "q": q}
+    target = {"target": [state["target_x"], state["target_y"]], "near": q}
+    elbow = {"elbow": int(state["elbow"])} if arm.n == 2 else {}
+    return {"type": "arm-reach", "arm": drawn, **target, **elbow}

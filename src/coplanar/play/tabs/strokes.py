@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -72,6 +73,23 @@ def code_of(state: State) -> str:
     if state["curve"] == "ellipse":
         return f"coplanar.Ellipse({size}, {copying.number(0.5 * state['size'])}, center={centre}, tilt={tilt})"
     return f"coplanar.{state['curve'].capitalize()}({size}, center={centre}, tilt={tilt})"
+
+
+def data_of(state: State) -> dict[str, Any]:
+    """The curve as a scenario file holds it; a point that rests where there is none."""
+    name, centre = state["curve"], [state["curve_x"], state["curve_y"]]
+    if curve_of(state) is None:
+        return {"type": "point", "point": centre}
+    if name == "stroke":
+        return {"type": "spline", "points": _thinned(state["stroke"])}
+    if name == "line":
+        start, end = _ends(state)
+        return {"type": "line", "start": start, "end": end}
+    sizes: dict[str, Any] = {"radius": state["size"]} if name == "circle" else {"a": state["size"]}
+    if name == "ellipse":
+        sizes["b"] = 0.5 * state["size"]
+    tilt = {} if name == "circle" else {"tilt": state["tilt"]}
+    return {"type": name, **sizes, "center": centre, **tilt}
 
 
 def _ends(state: State) -> list[list[float]]:

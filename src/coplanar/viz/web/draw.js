@@ -27,14 +27,15 @@ const TINT = 0.14; // of the inside of what is filled
  * @param {HTMLCanvasElement} canvas
  * @param {SceneData} scene
  * @param {number} t
+ * @param {View} [wanted] What is shown; everything, by default.
  */
-export function drawScene(canvas, scene, t) {
+export function drawScene(canvas, scene, t, wanted) {
   const ratio = window.devicePixelRatio || 1;
   const width = canvas.clientWidth;
   const height = canvas.clientHeight;
   if (canvas.width !== Math.round(width * ratio)) canvas.width = Math.round(width * ratio);
   if (canvas.height !== Math.round(height * ratio)) canvas.height = Math.round(height * ratio);
-  const view = new View(scene.bounds, width, height);
+  const view = wanted ?? new View(scene.bounds, width, height);
   const ctx = canvas.getContext("2d");
   if (!ctx) return view;
   const style = getComputedStyle(canvas);

@@ -12,7 +12,7 @@ import { gridStep } from "./view.js";
  */
 export function drawGrid(ctx, view, unit, colourOf) {
   const { left, right, top, bottom } = view;
-  const step = gridStep((right - left) / view.scale, Math.max(2, Math.min(8, (right - left) / 80)));
+  const step = gridStep((right - left) / view.scale, Math.max(3, Math.min(10, (right - left) / 62)));
   const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   const label = (/** @type {number} */ k) => (k === 0 ? "0" : (k * step).toFixed(digits).replace("-", "\u2212"));
   const rule = (/** @type {number} */ k) => {

@@ -92,10 +92,11 @@ export class View {
    * @param {number[]} bounds
    * @param {number} width of the canvas [px]
    * @param {number} height
+   * @param {number} [room] around them, over their larger side
    */
-  constructor(bounds, width, height) {
+  constructor(bounds, width, height, room = 0.06) {
     const [xmin, xmax, ymin, ymax] = bounds;
-    const pad = 0.06 * Math.max(xmax - xmin, ymax - ymin, 1e-9);
+    const pad = room * Math.max(xmax - xmin, ymax - ymin, 1e-9);
     this.width = width;
     this.height = height;
     this.left = 44;
