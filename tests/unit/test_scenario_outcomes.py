@@ -191,9 +191,9 @@ def test_the_truth_about_loops_sees_a_wrong_step(method):
     assert outcome.passed, outcome.check
     loop = scenario.build()
     other = PointTracker((0.1, 0.03), kp=31.0, ki=5.0, feedforward=True, error_against="next")
-    assert truths.loop_error(outcome.run, other, loop.reference, method, None, None) > 1e-4
+    assert truths.loop_error(outcome.run, other, loop.reference, method) > 1e-4
     if method not in ("rk4", "exact"):
-        assert truths.loop_error(outcome.run, loop.controller, loop.reference, "rk4", None, None) > 1e-9
+        assert truths.loop_error(outcome.run, loop.controller, loop.reference, "rk4") > 1e-9
 
 
 def test_limits_and_polar_controllers_run():
@@ -213,3 +213,30 @@ def test_scenarios_know_no_pictures():
         "sys.exit('matplotlib' in sys.modules or 'coplanar.viz' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("name", "changes", "true"),
+    [
+        ("arm-reach", {"search.near": [0.1, -0.1]}, lambda o: o.things["search"].q[1] < 0.0 < load_q2("arm-reach")),
+        ("arm-reach", {"arm.links": [0.5, 0.3]}, lambda o: o.ok),
+        ("track-astroid", {"controller.kd": 0.4}, lambda o: o.summary["stable"]),
+        ("clothoid", {"segments.0.a": 0}, lambda o: "a clothoid" in o.headline),
+        ("drive-square", {"method": "exact"}, lambda o: o.ok),
+        ("holonomic", {"pieces.3.alpha": 0.5}, lambda o: o.summary["final_x"] == 2.0 and o.summary["final_theta"] > 0.5),
+        ("rolling-wheel", {"slip": -0.2}, lambda o: o.summary["contact_speed"] == pytest.approx(0.2)),
+        ("ramp", {"together": True}, lambda o: o.summary["time_x"] == o.summary["time_y"]),
+        ("shot", {"projectile.drag": 0}, lambda o: o.summary["apex_y"] == pytest.approx(30000.0 / (2 * 9.81))),
+        ("drive-to-pose", {"controller.arrive_within": 1e-4}, lambda o: np.abs(np.diff(o.run["omega"])).sum() > 90.0),
+        ("frames", {"wanted_in": "robot"}, lambda o: o.tables["run.csv"]["y_wanted"][0] == pytest.approx(-1.0)),
+        ("arm-pose", {"arm.angles": "absolute"}, lambda o: o.summary["theta"] == 0.4),
+    ],
+)  # fmt: skip
+def test_what_the_comments_of_the_files_invite_to_try(name, changes, true):
+    outcome = load(name).replaced(changes).run()
+    assert outcome.passed
+    assert true(outcome), outcome.summary
+
+
+def load_q2(name):
+    return load(name).run().things["search"].q[1]

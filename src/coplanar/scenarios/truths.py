@@ -39,7 +39,9 @@ def points_of(pairs: Any) -> np.ndarray:
     return np.asarray(table[..., 0] + 1j * table[..., 1])
 
 
-def loop_error(run: Run, controller: Any, reference: Any, method: str, limits: Any, noise: Any) -> float:
+def loop_error(
+    run: Run, controller: Any, reference: Any, method: str, *, limits: Any = None, noise: Any = None
+) -> float:
     """How far each row of a closed loop is from the step that leads to it, taken anew [m, rad, m/s, rad/s].
 
     The plant by its Butcher table (or an arc's chord), the command of a tracked point from its error in complex

@@ -167,7 +167,9 @@ class Track(Scenario):
         run = self._simulated(loop)
         progress(0.6)
         numbers = self._numbers_of(loop, run)
-        error = truths.loop_error(run, loop.controller, loop.reference, self.integrator.method, loop.limits, loop.noise)
+        error = truths.loop_error(
+            run, loop.controller, loop.reference, self.integrator.method, limits=loop.limits, noise=loop.noise
+        )
         return self._told(
             loop,
             numbers,
