@@ -43,10 +43,10 @@ def _set(data: Any, whole: Any, key: str, value: Any) -> Problem | None:
     for place, step in enumerate(way):
         inner = _filled(data, whole, step)
         if inner is None:
-            return _nowhere(data, key_text(way[: place + 1]), step)
+            return _nowhere(data, whole, key_text(way[: place + 1]), step)
         data, whole = inner, _get(whole, step)
     if isinstance(data, list) and _get(data, last) is _NOTHING:
-        return _nowhere(data, key, last)
+        return _nowhere(data, whole, key, last)
     data[int(last) if isinstance(data, list) else last] = value
     return None
 
@@ -73,9 +73,11 @@ def _filled(data: Any, whole: Any, step: str) -> Any:
     return inner if isinstance(inner, dict | list) else None
 
 
-def _nowhere(data: Any, key: str, step: str) -> Problem:
-    if isinstance(data, list):
+def _nowhere(data: Any, whole: Any, key: str, step: str) -> Problem:
+    if isinstance(data, list) and _get(data, step) is _NOTHING:
         return Problem(key, "", f"a place from 0 to {len(data) - 1}")
-    known = list(data) if isinstance(data, dict) else []
-    remedy = did_you_mean(step, known)
-    return Problem(key, "", f"a key that is known here{': ' if known else ''}{', '.join(known)}", remedy)
+    held = _get(data, step) if _get(data, step) is not _NOTHING else _get(whole, step)
+    if held is not _NOTHING:
+        return Problem(key, shown(held), "no keys behind it: it holds one value")
+    known = list({**(whole if isinstance(whole, dict) else {}), **data})
+    return Problem(key, "", f"a key that is known here: {', '.join(known)}", did_you_mean(step, known))

@@ -24,13 +24,10 @@ def tool_of(arm: Arm, q: Any) -> np.ndarray:
     joints = np.asarray(q, dtype=np.float64)
     place = np.full(joints.shape[:-1], complex(arm.base.x, arm.base.y))
     turned = np.full(joints.shape[:-1], float(arm.base.theta))
-    before = np.zeros(joints.shape[:-1])
-    for i, (length, letter, bend) in enumerate(zip(arm.links, arm.joints, arm.bends or (0.0,) * arm.n, strict=True)):
+    for i, (length, letter, bend) in enumerate(zip(arm.links, arm.joints, arm.bends, strict=True)):
         value = joints[..., i]
-        turns = value if letter == "R" else 0.0
-        if arm.angles == "absolute" and letter == "R":
-            turns, before = value - before, value
-        turned = turned + turns + bend
+        before = arm.base.theta if arm.angles == "absolute" and letter == "R" else turned
+        turned = before + bend + (value if letter == "R" else 0.0)
         place = place + (length + (value if letter == "P" else 0.0)) * np.exp(1j * turned)
     ahead: np.ndarray = place + complex(arm.tool.x, arm.tool.y) * np.exp(1j * turned)
     return ahead
@@ -42,7 +39,9 @@ def points_of(pairs: Any) -> np.ndarray:
     return np.asarray(table[..., 0] + 1j * table[..., 1])
 
 
-def loop_error(run: Run, controller: Any, reference: Any, method: str, limits: Any, noise: Any) -> float:
+def loop_error(
+    run: Run, controller: Any, reference: Any, method: str, *, limits: Any = None, noise: Any = None
+) -> float:
     """How far each row of a closed loop is from the step that leads to it, taken anew [m, rad, m/s, rad/s].
 
     The plant by its Butcher table (or an arc's chord), the command of a tracked point from its error in complex

@@ -68,8 +68,9 @@ def _problem(model: type[BaseModel], entry: Any, lines: Mapping[Place, int]) -> 
         names = _names(said["expected"])
         needed, remedy = f"one of {', '.join(names)}", did_you_mean(entry["input"], names)
     elif kind in ("refused", "quantity"):
-        needed, name = str(said["needed"]), str(said.get("name", ""))
-        place = (*place, name) if name and name.split(",")[0] in keys_of(holder) else place
+        needed, name = str(said["needed"]), str(said.get("name", "")).split(".")
+        inner = tuple(int(part) if part.isdigit() else part for part in name)
+        place = (*place, *inner) if name[0].split(",")[0] in keys_of(holder) else place
     elif kind in _BOUNDS:
         bound, form = _BOUNDS[kind]
         needed = form.format(said.get(bound))

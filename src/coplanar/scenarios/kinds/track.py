@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import ceil
 from typing import Any, ClassVar, Literal, NamedTuple
 
@@ -111,9 +112,15 @@ class Track(Scenario):
         return report
 
     def _simulated(self, loop: Loop) -> Run:
+        noise = loop.noise
+        if noise is not None:  # the robots of a batch draw from the seed as each of them would alone
+            shapes = [part.shape for part in (loop.controller, loop.start, loop.limits, noise) if part is not None]
+            shapes += [] if loop.reference is None else [loop.reference.position(0.0).shape[:-1]]
+            shape = np.broadcast_shapes(*shapes)
+            noise = replace(noise, seed=np.broadcast_to(noise.seed, shape)) if shape else noise
         return simulate(
             Unicycle(), loop.controller, loop.reference, duration=self.duration, step=self.integrator.step,
-            method=self.integrator.method, start=loop.start, limits=loop.limits, noise=loop.noise,
+            method=self.integrator.method, start=loop.start, limits=loop.limits, noise=noise,
         )  # fmt: skip
 
     def _refused(self, loop: Loop) -> Any:
@@ -160,7 +167,9 @@ class Track(Scenario):
         run = self._simulated(loop)
         progress(0.6)
         numbers = self._numbers_of(loop, run)
-        error = truths.loop_error(run, loop.controller, loop.reference, self.integrator.method, loop.limits, loop.noise)
+        error = truths.loop_error(
+            run, loop.controller, loop.reference, self.integrator.method, limits=loop.limits, noise=loop.noise
+        )
         return self._told(
             loop,
             numbers,

@@ -38,7 +38,7 @@ def draw_aim(outcome: Outcome, canvas: Any) -> None:
     if scenario.speed is not None and aim.projectile.gravity > 0.0 and not any(scenario.start):
         down = np.arctan2(*aim.target[::-1]) if aim.target[0] > 0.0 else 0.0
         plot_envelope(aim.projectile, scenario.speed, ax, lowest=min(-0.05, float(down)))
-    for arc, name in zip(arcs, ("low arc", "high arc") if len(arcs) > 1 else ("launch",), strict=True):
+    for arc, name in zip(arcs, ("low arc", "high arc") if len(arcs) > 1 else ("launch",), strict=False):
         plot_shot(arc.shot, arc.time, ax, label=f"{name}, {arc.speed:.4g} m/s at {degrees(arc.angle):.1f} deg")
     plane(ax).plot(*aim.target, "x", color="C3", markersize=9, markeredgewidth=2)
     if arcs:
@@ -46,6 +46,11 @@ def draw_aim(outcome: Outcome, canvas: Any) -> None:
             end = arcs[0].arrival().position
             ax.plot(*zip(end, aim.target, strict=True), "--", color="C3", linewidth=1.2)
         ax.legend()
+    else:  # no launch at all: the line along which it would go
+        ax.axline(
+            tuple(aim.start), slope=float(np.tan(scenario.angle or 0.0)), linestyle="--", color="C5", linewidth=1.2
+        )
+        ax.plot(*aim.start, "o", color="C0")
     if not aim.hit:
         ax.set_title(aim.status.value, fontsize=9)
 
