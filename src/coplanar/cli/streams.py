@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -20,7 +20,7 @@ from coplanar.se2 import Pose
 
 POSE = ("x", "y", "theta")
 COVARIANCE = ("xx", "xy", "xtheta", "yy", "ytheta", "thetatheta")  # the upper triangle
-STDIN = "-"
+PIPE = "-"
 
 
 @dataclass(slots=True)
@@ -72,7 +72,7 @@ def source(log: str) -> Iterator[tuple[Reader, str]]:
     Raises:
         InvalidValue: If there is no such file.
     """
-    if log == STDIN:
+    if log == PIPE:
         buffer = sys.stdin.buffer
         yield getattr(buffer, "read1", buffer.read), "stdin"
         return
@@ -97,30 +97,39 @@ def poses_to(target: str | None, pieces: Iterable[Piece], every: int, decimals: 
     """
     tally = Tally()
     if target is None:
-        _written(pieces, tally, every, decimals, lambda _: None)
-    elif target == "-":
+        for _ in _told(pieces, tally):
+            continue
+    elif target == PIPE:
         out = sys.stdout.buffer
-        _written(pieces, tally, every, decimals, lambda text: (out.write(text), out.flush()))
+        for text in _texts(pieces, tally, every, decimals):
+            out.write(text)
+            out.flush()
     else:
         with _whole(target) as file:
-            _written(pieces, tally, every, decimals, file.write)
+            file.writelines(_texts(pieces, tally, every, decimals))
         tally.file = target
     return tally
 
 
-def _written(
-    pieces: Iterable[Piece], tally: Tally, every: int, decimals: int | None, write: Callable[[bytes], object]
-) -> None:
-    last = b""
+def _told(pieces: Iterable[Piece], tally: Tally) -> Iterator[Piece]:
+    """The pieces, each counted after it is used, with progress."""
     with progress("rows") as step:
         for piece in pieces:
-            table = _table(piece)
-            head = b"" if tally.rows else _header(piece)
-            write(head + _text(table[-tally.rows % every :: every], decimals))
+            yield piece
             tally.add(piece)
-            last = b"" if (tally.rows - 1) % every == 0 else _text(table[-1:], decimals)
             step("poses", tally.rows, None)
-    write(last)
+
+
+def _texts(pieces: Iterable[Piece], tally: Tally, every: int, decimals: int | None) -> Iterator[bytes]:
+    """The poses as text, piece by piece."""
+    last = b""
+    for piece in _told(pieces, tally):
+        table = _table(piece)
+        head = b"" if tally.rows else _header(piece)
+        yield head + _text(table[-tally.rows % every :: every], decimals)
+        done = tally.rows + len(table)
+        last = b"" if (done - 1) % every == 0 else _text(table[-1:], decimals)
+    yield last
 
 
 def _header(piece: Piece) -> bytes:
