@@ -263,3 +263,16 @@ def test_quantities_have_units_and_say_what_is_wrong():
     with pytest.raises(InvalidValue, match=r"target = '1 2 3': needed 2 numbers"):
         arguments.quantities("target", ["1,2", "3"], LENGTH, LENGTH)
     assert arguments.maybe("q", None, ANGLE) is None
+
+
+def test_what_a_terminal_would_obey_is_shown_and_not_done():
+    log = b"a\x1b[31m,b\x07,c\x9b2J\n1,2,3\n"
+    for err in (
+        run("odometry", "-", "--from", "velocities", data=log)[2],
+        run("fk", "--links", "\x1b[2J", "--q", "1")[2],
+    ):
+        assert "\\x1b" in err
+        assert all(c.isprintable() or c == "\n" for c in err)
+    out = run("wheels", "table", "--wheel", "0,0.2,0,0.1,l\x1b[31m", "0,-0.2,0,0.1,right")[1]
+    assert "l\\x1b[31m" in out
+    assert "\x1b" not in out

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from coplanar.cli.conduct import NO, until_closed
-from coplanar.cli.console import console
+from coplanar.cli.console import console, visible
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
@@ -54,14 +54,14 @@ class Answer:
         return {"ok": self.ok, "status": self.status, **facts, "warnings": list(self.warnings)}
 
 
-def give(answer: Answer, as_json: bool) -> None:
-    """Write the answer to stdout, and exit with 1 if it is a no."""
+def give(answer: Answer, as_json: bool, *, exits: bool = True) -> None:
+    """Write the answer to stdout, and exit with 1 if it is a no, unless there is more to say."""
     with until_closed():
         if as_json:
             typer.echo(json.dumps(answer.document(), allow_nan=False))
         else:
             _print(answer, console())
-    if not answer.ok:
+    if exits and not answer.ok:
         raise typer.Exit(NO)
 
 
@@ -83,7 +83,7 @@ def plain(value: Any) -> Any:
 
 
 def _print(answer: Answer, out: Console) -> None:
-    out.print(answer.status, style="bold green" if answer.ok else "bold yellow")
+    out.print(visible(answer.status), style="bold green" if answer.ok else "bold yellow")
     width = max((len(fact.name) for fact in answer.facts), default=0)
     for fact in answer.facts:
         if _is_table(fact.value):
@@ -92,7 +92,7 @@ def _print(answer: Answer, out: Console) -> None:
         for i, line in enumerate(_lines(fact)):
             out.print(f"  {fact.name if i == 0 else '':{width}}  {line}")
     for warning in answer.warnings:
-        out.print(f"  note: {warning}", style="yellow")
+        out.print(f"  note: {visible(warning)}", style="yellow")
 
 
 def _is_table(value: Any) -> bool:
@@ -133,4 +133,4 @@ def _text(value: Any) -> str:
         return "  ".join(_text(entry) for entry in value)
     if isinstance(value, float):
         return "-" if math.isnan(value) else f"{value + 0.0:.6g}"
-    return str(value)
+    return visible(str(value))

@@ -13,15 +13,23 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from typer.core import TyperGroup
 
-from coplanar import __version__
 from coplanar.cli.arguments import ListsOfNumbers
 from coplanar.cli.conduct import conducted
+from coplanar.version import __version__
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 COMMANDS = {
     "tour": "tour",
+    "list": "scenarios",
+    "new": "scenarios",
+    "check": "scenarios",
+    "run": "scenarios",
+    "animate": "records",
+    "export": "records",
+    "sweep": "sweeps",
+    "schema": "scenarios",
     "fk": "arms",
     "ik": "arms",
     "aim": "aim",
@@ -53,7 +61,8 @@ class Commands(TyperGroup):
 
 def _made(name: str) -> Any:
     """The command behind a name."""
-    function: Callable[..., None] = getattr(importlib.import_module(f"coplanar.cli.{COMMANDS[name]}"), name)
+    module = importlib.import_module(f"coplanar.cli.{COMMANDS[name]}")
+    function: Callable[..., None] = getattr(module, f"{name}_" if name == "list" else name)
     alone = typer.Typer(add_completion=False, rich_markup_mode=None)
     alone.command(name, cls=ListsOfNumbers)(conducted(function))
     return typer.main.get_command(alone)

@@ -11,7 +11,7 @@ from typing import Any
 
 import typer
 
-from coplanar.cli.console import console
+from coplanar.cli.console import console, visible
 from coplanar.errors import CoplanarError, NoSolution
 
 NO, UNUSABLE, INTERRUPTED = 1, 2, 130
@@ -53,7 +53,7 @@ def until_closed() -> Iterator[None]:
 
 
 def _exit(code: int, error: object) -> typer.Exit:
-    console(stderr=True).print(f"error: {error}", style="red")
+    console(stderr=True).print(visible(f"error: {error}"), style="red")
     return typer.Exit(code)
 
 

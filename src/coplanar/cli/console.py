@@ -10,6 +10,18 @@ if TYPE_CHECKING:
 WIDE = 10_000  # [characters] of a line in a pipe: nothing is broken
 
 
+def visible(text: str) -> str:
+    r"""The text without anything that a terminal would obey: what comes from files and arguments is shown, not done.
+
+    Example:
+        >>> visible("a\x1b[31mb")
+        'a\\x1b[31mb'
+    """
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() or c == "\n" else c.encode("unicode_escape").decode() for c in text)
+
+
 def console(*, stderr: bool = False) -> Console:
     """A console of rich on stdout or stderr."""
     from rich.console import Console

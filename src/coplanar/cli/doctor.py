@@ -38,7 +38,7 @@ def doctor(as_json: Json = False) -> None:
     """
     import platform
 
-    from coplanar import __version__
+    from coplanar.version import __version__
 
     missing = [name for name in LIBRARIES if _version(name) is None]
     compiler, warnings = _compiler()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import secrets
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
@@ -17,6 +15,7 @@ from coplanar.cli.progress import progress
 from coplanar.errors import InvalidValue
 from coplanar.logs.lines import Reader
 from coplanar.logs.ticks import Piece
+from coplanar.run.files import written_whole
 from coplanar.se2 import Pose
 
 POSE = ("x", "y", "theta")
@@ -153,10 +152,5 @@ def _whole(target: str) -> Iterator[BinaryIO]:
         with path.open("wb") as device:
             yield device
         return
-    part = path.with_name(f".{path.name}.{secrets.token_hex(4)}.part")
-    try:
-        with part.open("xb") as file:
-            yield file
-        os.replace(part, path)
-    finally:
-        part.unlink(missing_ok=True)
+    with written_whole(path) as part, part.open("xb") as file:
+        yield file

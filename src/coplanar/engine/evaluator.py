@@ -12,7 +12,9 @@ import functools
 import importlib
 import math
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any
 
 import numpy as np
@@ -30,6 +32,7 @@ _FLOAT = {float}
 _FLOAT64 = np.dtype(np.float64)
 _FLOAT_PRIMITIVES = {name: getattr(scalars, name) for name in (*PRIMITIVES, "integral")}
 _float_laws: dict[Any, Any] = {}
+_by_rows_alone: ContextVar[bool] = ContextVar("_by_rows_alone", default=False)
 
 
 class Evaluator:
@@ -128,7 +131,9 @@ class Evaluator:
             array[...] = part
 
     def _compiles(self, rows: int) -> bool:
-        return rows >= (FIRST_COMPILED_ROWS if self._kernel is None else self._compiled_rows) and can_compile()
+        return (
+            rows >= (self._compiled_rows if warm(self._kernel is not None) else FIRST_COMPILED_ROWS) and can_compile()
+        )
 
     @functools.cached_property
     def _compiled_rows(self) -> int:
@@ -187,6 +192,24 @@ class Evaluator:
 def evaluator(law: Callable[..., Any]) -> Evaluator:
     """The evaluator of a law; the same one for every caller."""
     return Evaluator(law)
+
+
+@contextmanager
+def reproducible() -> Iterator[None]:
+    """In this block the number of rows alone decides who evaluates, not what was compiled before.
+
+    Evaluators differ in the last digit; here the same call gives the same digits, whatever ran before it.
+    """
+    token = _by_rows_alone.set(True)
+    try:
+        yield
+    finally:
+        _by_rows_alone.reset(token)
+
+
+def warm(ready: bool) -> bool:
+    """Whether a compiled loop that is ready may serve batches that would not be worth its compilation."""
+    return ready and not _by_rows_alone.get()
 
 
 @functools.cache

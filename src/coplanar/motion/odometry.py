@@ -9,13 +9,13 @@ import numpy as np
 
 from coplanar import checks
 from coplanar.checks import ArrayLike, Real
-from coplanar.engine import evaluator
+from coplanar.engine import Walk, evaluator, running_sum
 from coplanar.errors import InvalidShape, InvalidValue
 from coplanar.integrators import METHODS
 from coplanar.laws import motion as laws
 from coplanar.laws import se2
 from coplanar.motion.program import held_samples
-from coplanar.motion.sequence import along, before_last_axis, running_sum
+from coplanar.motion.sequence import along, before_last_axis
 from coplanar.se2 import Displacement, Pose
 from coplanar.se2.triple import matrix_of
 
@@ -23,6 +23,7 @@ _increment_variances = evaluator(laws.increment_variances)
 _rotate = evaluator(se2.rotate)
 _step = evaluator(se2.step)
 _step_jacobian = evaluator(laws.step_jacobian)
+_walk = Walk(se2.step)
 _wheel_increments = evaluator(laws.wheel_increments)
 
 EXACT = "exact"
@@ -108,7 +109,7 @@ class Odometry:
         dt = np.diff(times)
         forward, turn = (held_samples(name, value, times.size) for name, value in (("v", v), ("omega", omega)))
         checks.broadcast(v=forward, omega=turn)
-        return cls(Displacement(forward * dt, 0.0, turn * dt))
+        return cls(_measured(forward * dt, turn * dt))
 
     @classmethod
     def from_wheels(cls, left: ArrayLike, right: ArrayLike, *, track: ArrayLike) -> Odometry:
@@ -131,7 +132,7 @@ class Odometry:
         ways["track"] = checks.positive("track", track)
         checks.broadcast(**ways)
         distance, turn = _wheel_increments(*ways.values())
-        return cls(Displacement(distance, 0.0, turn))
+        return cls(_measured(distance, turn))
 
     def path(self, start: Pose, *, method: str = EXACT) -> Pose:
         """The pose before each tick and after the last one, shape (..., n + 1), with no loop over ticks.
@@ -151,7 +152,18 @@ class Odometry:
             [2.0, 2.0, 2.0]
         """
         checks.choice("method", method, PATH_METHODS)
+        if method == EXACT:
+            return Pose._of(*_walk(start.parts, self.increments.parts))
         return walked(self.increments, start, method)[0]
+
+    def end(self, start: Pose) -> Pose:
+        """The pose after the last tick, the last one of ``path``; the others take no memory.
+
+        Example:
+            >>> Odometry(Displacement([1.0, 1.0], 0.0, 0.0)).end(Pose(1.0, 2.0, 0.0))
+            Pose(x=3.0, y=2.0, theta=0.0)
+        """
+        return Pose._of(*_walk(start.parts, self.increments.parts, keep="end"))
 
     def jacobians(self, start: Pose) -> tuple[np.ndarray, np.ndarray]:
         """How the pose after each tick moves with the pose before it, F, and with its increment, G.
@@ -249,6 +261,14 @@ def summed_about(path: Pose, start: Pose, increments: Displacement, Q: np.ndarra
     )
     sums: np.ndarray = np.cumsum(rows, axis=-3)
     return sums
+
+
+def _measured(distance: Real, turn: Real) -> Displacement:
+    """A way straight ahead and a turn, from arrays that nobody else holds: read-only from here, and so not copied."""
+    for part in (distance, turn):
+        if isinstance(part, np.ndarray):
+            part.flags.writeable = False
+    return Displacement(distance, 0.0, turn)
 
 
 def lever(dx: Real, dy: Real) -> np.ndarray:

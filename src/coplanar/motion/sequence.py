@@ -10,26 +10,6 @@ from coplanar.checks import Real
 from coplanar.engine import is_foreign, namespace_of
 
 
-def running_sum(increments: Any, before: Any = None) -> Any:
-    """0, then the sums of the first 1, 2 ... n entries of the last axis: shape (..., n + 1).
-
-    Args:
-        increments: Shape (..., n).
-        before: Start with this sum in place of 0, shape (...): sums that go on round as if they never stopped.
-
-    Example:
-        >>> running_sum(np.array([1.0, 2.0])).tolist()
-        [0.0, 1.0, 3.0]
-        >>> running_sum(np.array([3.0]), 3.0).tolist()
-        [3.0, 6.0]
-    """
-    xp, column = _namespace(increments), (*increments.shape[:-1], 1)
-    if before is not None:
-        first = xp.broadcast_to(xp.asarray(before)[..., None], column)
-        return xp.cumsum(xp.concat((first, increments), axis=-1), axis=-1)
-    return xp.concat((xp.zeros(column, dtype=increments.dtype), xp.cumsum(increments, axis=-1)), axis=-1)
-
-
 def piece_at(knots: Any, t: Any) -> Any:
     """Which piece holds at time t: the last one that has begun, the first one before.
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import Any, Protocol
+from collections.abc import Callable, Collection, Iterator
+from functools import partial
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -31,7 +32,7 @@ class Plant(Protocol):
 def simulate(
     plant: Plant, controller: Controller, reference: Timed | None = None, *, t: ArrayLike | None = None,
     duration: float | None = None, step: float | None = None, method: str = "euler", limits: Limits | None = None,
-    start: Pose | None = None, noise: Noise | None = None,
+    start: Pose | None = None, noise: Noise | None = None, keep: str | Collection[str] = "all",
 ) -> Run:  # fmt: skip
     """Run a closed loop: measure, compare, command, hold the command over a step.
 
@@ -48,15 +49,17 @@ def simulate(
         limits: What the motors allow; the command recorded is the one after them.
         start: First pose, of any leading shape; the controller's own starting pose unless given.
         noise: Added to the measured pose and to the driven command.
+        keep: "all" for every column at every time, "end" for the last row alone, or the names of the columns that are
+            wanted at every time. What is kept is the same whatever else is; what is not takes neither memory nor time.
 
     Returns:
-        A run with the columns t, x, y, theta, v, omega and the controller's errors. Row 0 is the start with
-        command and error 0; row i + 1 holds the command and the error that led to it. If a state stops being
-        finite the run says DIVERGED; that of one robot ends there.
+        A run with the columns t, x, y, theta, v, omega and the controller's errors, or those of them that are kept.
+        Row 0 is the start with command and error 0; row i + 1 holds the command and the error that led to it. If a
+        state stops being finite the run says DIVERGED; where that of every robot has, it ends.
 
     Raises:
         InvalidValue: If the times do not increase, or something that is needed is missing.
-        UnknownName: If the method is not known.
+        UnknownName: If the method or a column to keep is not known.
         InvalidShape: If shapes do not broadcast.
 
     Example:
@@ -66,8 +69,13 @@ def simulate(
         >>> run = simulate(Unicycle(), tracker, Astroid(1.0).over(10.0), step=0.01)
         >>> len(run), float(run["ex"][1:].max()) < 0.01
         (1001, True)
+        >>> end = simulate(Unicycle(), tracker, Astroid(1.0).over(10.0), step=0.01, keep="end")
+        >>> len(end), float(end["x"][-1]) == float(run["x"][-1])
+        (1, True)
     """
     checks.choice("method", method, METHODS)
+    names = ("x", "y", "theta", "v", "omega", *controller.error_names)
+    kept = _places(keep, names)
     times, steps = _times(reference, t, duration, step)
     first = controller.start(reference, float(times[0])) if start is None else start
     shape = _shape(start=first, controller=controller, noise=noise, limits=limits, reference=reference)
@@ -76,24 +84,81 @@ def simulate(
     bare = limits is None and noise is None and type(plant) is Unicycle
     roll = getattr(controller, "roll", None) if shape and bare else None
     if roll:
-        columns = roll(state, targets, steps, method)
+        course = _rolled(partial(roll, state, targets, steps, method), kept)
     else:
         shaken = noise.draw(len(steps), shape) if noise else np.zeros((len(steps), 5) + (1,) * len(shape))
         each_step = zip(_rows(targets, shape), _rows(shaken.swapaxes(0, 1), shape), steps.tolist(), strict=True)
         rows = _loop((plant, controller, limits, method), state, each_step)
-        columns = _filled(np.zeros((5 + len(controller.error_names), len(times), *shape)), state, rows)
-    return _run(columns, times, (controller, reference, steps, method, noise))
+        course = _stepped(kept, (len(times), *shape), (*state, *(0.0,) * (len(names) - 3)), rows)
+    return Run._of(
+        _columns(course, kept, names, times) if keep != "end" else _last_row(course, names, times, shape),
+        "unicycle",
+        status=RunStatus.COMPLETE if np.all(np.isfinite(course.survival)) else RunStatus.DIVERGED,
+        warnings=partial(_warnings, controller, reference, times, steps, method),
+        info={"method": method, "step": float(steps[0]), "seed": noise.seed if noise else None},
+    )
 
 
-def _filled(table: np.ndarray, state: Any, rows: Iterator[tuple[Real, ...]]) -> np.ndarray:
-    """The table (columns, rows, ...) with its rows, as far as they go."""
-    last = 0
-    for place, value in enumerate(state):
-        table[place, 0] = value
+class _Course(NamedTuple):
+    """What a run went through.
+
+    Attributes:
+        histories: For every place of a column that is kept its rows, as far as they go.
+        end: The last row.
+        last: Its number.
+        survival: Finite for the robots whose pose was so all the way.
+    """
+
+    histories: dict[int, np.ndarray]
+    end: tuple[Real, ...]
+    last: int
+    survival: Real
+
+
+def _places(keep: str | Collection[str], names: tuple[str, ...]) -> tuple[int, ...]:
+    """The places of the columns that are kept at every time."""
+    if isinstance(keep, str):
+        return tuple(range(len(names))) if checks.choice("keep", keep, ("all", "end")) == "all" else ()
+    return tuple(sorted({names.index(checks.choice("keep", name, names)) for name in keep}))
+
+
+def _rolled(roll: Callable[[Collection[int]], tuple[np.ndarray, ...]], kept: tuple[int, ...]) -> _Course:
+    """All steps at once; a run that no robot survives ends at the first row where none does."""
+    columns = roll(kept)
+    end = tuple(column[-1] if place in kept else column for place, column in enumerate(columns))
+    survival = end[0] + end[1] + end[2]  # what is no longer finite never is again
+    histories = {place: columns[place] for place in kept}
+    if _any_finite(survival):
+        return _Course(histories, end, -1, survival)
+    whole = roll(range(len(columns)))
+    dead = ~np.isfinite(whole[0] + whole[1] + whole[2])
+    last = int(dead.reshape(len(dead), -1).all(1).argmax())
+    return _Course({k: whole[k][: last + 1] for k in kept}, tuple(c[last] for c in whole), last, survival)
+
+
+def _stepped(kept: tuple[int, ...], size: tuple[int, ...], row: tuple[Real, ...], rows: Any) -> _Course:
+    """Row after row, from the first one on."""
+    table = {place: np.zeros(size) for place in kept}
+    last, survival = 0, 0.0 * row[0]
+    for place, column in table.items():
+        column[0] = row[place]
     for last, row in enumerate(rows, 1):
-        for place, value in enumerate(row):
-            table[place, last] = value
-    return table[:, : last + 1]
+        survival = survival + 0.0 * (row[0] + row[1] + row[2])
+        for place, column in table.items():
+            column[last] = row[place]
+    return _Course({place: column[: last + 1] for place, column in table.items()}, row, last, survival)
+
+
+def _columns(course: _Course, kept: tuple[int, ...], names: tuple[str, ...], times: np.ndarray) -> dict[str, Any]:
+    """The time and what is kept of it all."""
+    rows = len(times) if course.last < 0 else course.last + 1
+    return {"t": times[:rows]} | {names[place]: course.histories[place] for place in kept}
+
+
+def _last_row(course: _Course, names: tuple[str, ...], times: np.ndarray, shape: tuple[int, ...]) -> dict[str, Any]:
+    """A table of one row."""
+    ends = {name: np.broadcast_to(value, (1, *shape)).copy() for name, value in zip(names, course.end, strict=True)}
+    return {"t": times[course.last :][:1]} | ends
 
 
 def _loop(parts: tuple[Any, ...], state: Any, each_step: Any) -> Iterator[tuple[Real, ...]]:
@@ -122,7 +187,7 @@ def _times(
     if t is not None:
         if duration is not None or step is not None:
             raise InvalidValue("t", "given with duration or step", "either t, or duration and step")
-        times = checks.monotone("t", t)
+        times: np.ndarray = checks.frozen(checks.monotone("t", t))
         if times[0] > times[-1]:
             raise InvalidValue("t", t, "increasing times")
         return times, np.diff(times)
@@ -156,22 +221,6 @@ def _shape(*, reference: Any, **parts: Any) -> tuple[int, ...]:
 def _rows(columns: Any, shape: tuple[int, ...]) -> Iterator[tuple[Any, ...]]:
     """Step after step of columns (steps, ...), as floats for one robot."""
     return zip(*(c if shape else np.asarray(c).tolist() for c in columns), strict=True)
-
-
-def _run(columns: Any, times: np.ndarray, made_of: tuple[Any, ...]) -> Run:
-    controller, reference, steps, method, noise = made_of
-    names = ("x", "y", "theta", "v", "omega", *controller.error_names)
-    alive = np.isfinite(columns[0] + columns[1] + columns[2]).reshape(len(columns[0]), -1)
-    rows = len(alive) if alive.any(1).all() else int(alive.any(1).argmin()) + 1
-    for column in columns:
-        column.flags.writeable = False
-    return Run(
-        {"t": times[:rows]} | {name: column[:rows] for name, column in zip(names, columns, strict=True)},
-        "unicycle",
-        status=RunStatus.COMPLETE if alive.all() else RunStatus.DIVERGED,
-        warnings=_warnings(controller, reference, times, steps, method),
-        info={"method": method, "step": float(steps[0]), "seed": noise.seed if noise else None},
-    )
 
 
 def _warnings(
