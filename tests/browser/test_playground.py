@@ -357,27 +357,6 @@ def test_nothing_is_loaded_from_elsewhere(visit):
     assert {"/".join(url.split("/")[:3]) for url in loaded} == {"/".join(page.url.split("/")[:3])}
 
 
-@pytest.mark.parametrize("tab", TABS)
-def test_copied_python_and_yaml_agree_with_the_page(visit, tab, tmp_path):
-    page = visit(tab)
-    page.get_by_role("button", name="Python").click()
-    until(page, "document.querySelector('#copied-status').textContent !== ''")
-    code = page.locator("#copied-text").input_value()
-    page.get_by_role("button", name="Close").click()
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, check=True)
-    printed = dict(line.split(" = ", 1) for line in done.stdout.splitlines() if " = " in line)
-    numbers = {entry["key"]: entry["number"] for entry in answered(page)["readouts"] if "number" in entry}
-    shared = printed.keys() & numbers.keys()
-    assert len(shared) >= 2
-    for key in shared:
-        assert float(printed[key]) == pytest.approx(numbers[key], rel=1e-12, abs=1e-12), key
-    page.get_by_role("button", name="YAML").click()
-    until(page, "document.querySelector('#copied').open")
-    path = tmp_path / "copied.yaml"
-    path.write_text(page.locator("#copied-text").input_value(), "utf-8")
-    assert scenarios.load(path).measure()
-
-
 def test_without_a_clipboard_the_text_is_selected(visit):
     page = visit("arm")
     page.evaluate("() => { navigator.clipboard.writeText = () => Promise.reject(new Error('no')); }")
@@ -405,12 +384,53 @@ def test_the_page_comes_back_when_the_server_does(visit):
     visit.errors.clear()
 
 
-@pytest.mark.parametrize("tab", TABS)
-def test_narrow_screens_do_not_scroll_sideways(visit, tab):
-    page = visit(tab, viewport={"width": 360, "height": 740}, is_mobile=True, has_touch=True)
-    for width in (360, 800):
-        page.set_viewport_size({"width": width, "height": 740})
-        page.wait_for_timeout(100)
+def walked(page):
+    """Every tab in turn, by its button."""
+    for tab in TABS:
+        page.locator(f"#tab-{tab}").click()
+        page.wait_for_selector(f"html[data-tab={tab}]")
+        rest(page)
+        yield tab
+
+
+def copied(page, button):
+    """The text that a button offers."""
+    page.get_by_role("button", name=button).click()
+    until(page, "document.querySelector('#copied').open && document.querySelector('#copied-status').textContent !== ''")
+    text = page.locator("#copied-text").input_value()
+    page.get_by_role("button", name="Close").click()
+    return text
+
+
+def test_copied_python_runs_and_agrees_with_the_page(visit):
+    page, codes, numbers = visit("arm"), [], []
+    for _ in walked(page):
+        codes.append(copied(page, "Python"))
+        numbers.append({entry["key"]: entry["number"] for entry in answered(page)["readouts"] if "number" in entry})
+    runner = "import json, sys\nfor code in json.load(sys.stdin):\n    exec(code, {})\n    print('----')\n"
+    done = subprocess.run(
+        [sys.executable, "-c", runner], input=json.dumps(codes), capture_output=True, text=True, check=True
+    )
+    for output, wanted in zip(done.stdout.split("----\n"), numbers, strict=False):
+        printed = dict(line.split(" = ", 1) for line in output.splitlines() if " = " in line)
+        shared = printed.keys() & wanted.keys()
+        assert len(shared) >= 2
+        for key in shared:
+            assert float(printed[key]) == pytest.approx(wanted[key], rel=1e-12, abs=1e-12), key
+
+
+def test_copied_yaml_is_a_scenario_that_measures(visit, tmp_path):
+    page = visit("arm")
+    for tab in walked(page):
+        path = tmp_path / f"{tab}.yaml"
+        path.write_text(copied(page, "YAML"), "utf-8")
+        assert scenarios.load(path).measure()
+
+
+@pytest.mark.parametrize("width", [360, 800])
+def test_narrow_screens_do_not_scroll_sideways(visit, width):
+    page = visit("lab", viewport={"width": width, "height": 740}, is_mobile=width < 400, has_touch=width < 400)
+    for _ in walked(page):
         assert page.evaluate("document.documentElement.scrollWidth") <= width
         outside = page.evaluate(
             """(width) => [...document.querySelectorAll("main *")]
@@ -422,16 +442,16 @@ def test_narrow_screens_do_not_scroll_sideways(visit, tab):
 
 
 @pytest.mark.skipif(not AXE.exists(), reason="NOT RUN: axe-core is not installed (npm ci in tools/web)")
-@pytest.mark.parametrize("tab", TABS)
-def test_axe_finds_nothing_serious(visit, tab):
-    page = visit(tab, bypass_csp=True)
+def test_axe_finds_nothing_serious(visit):
+    page = visit("lab", bypass_csp=True)
     page.add_script_tag(path=str(AXE))
-    for scheme in ("light", "dark"):
-        page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
-        found = page.evaluate("axe.run(document, { resultTypes: ['violations'] })")["violations"]
-        serious = [
-            (violation["id"], violation["help"], [node["html"][:120] for node in violation["nodes"]][:4])
-            for violation in found
-            if violation["impact"] in ("serious", "critical")
-        ]
-        assert json.dumps(serious, indent=1) == "[]"
+    for tab in walked(page):
+        for scheme in ("light", "dark"):
+            page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+            found = page.evaluate("axe.run(document, { resultTypes: ['violations'] })")["violations"]
+            serious = [
+                (violation["id"], violation["help"], [node["html"][:120] for node in violation["nodes"]][:4])
+                for violation in found
+                if violation["impact"] in ("serious", "critical")
+            ]
+            assert json.dumps([tab, scheme, serious]) == json.dumps([tab, scheme, []])

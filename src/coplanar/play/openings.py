@@ -48,7 +48,12 @@ def _arm_trace(scenario: Any) -> State:
         arm, curve = scenario.build()
         start = curve.position(curve.interval[0])
         near = arm.inverse(start, elbow=scenario.elbow).q.tolist()
-    ways = {"at_singular": scenario.at_singular, "duration": scenario.duration, "follow": "joints"}
+    ways = {
+        "at_singular": scenario.at_singular,
+        "duration": scenario.duration,
+        "follow": "joints",
+        "points": scenario.points,
+    }
     return _arm(scenario) | _joints(near) | _curve(scenario.curve) | ways
 
 

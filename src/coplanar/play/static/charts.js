@@ -129,6 +129,19 @@ function decades(low, high) {
   return found;
 }
 
+/**
+ * Numbers at an axis; with exponents where all of them are small or large.
+ * @param {number[]} splits
+ */
+function labels(splits) {
+  const most = Math.max(...splits.map(Math.abs));
+  const scientific = most < 1e-3 || most >= 1e5;
+  return splits.map((value) => {
+    const text = scientific && value !== 0 ? value.toExponential(1).replace(".0e", "e") : String(+value.toPrecision(6));
+    return text.replaceAll("-", "\u2212").replace("+", "");
+  });
+}
+
 /** @param {number} value */
 function asPower(value) {
   const power = Math.round(Math.log10(value));
@@ -176,6 +189,7 @@ function options(series, width) {
     ticks: { show: false },
     font: "11px system-ui, sans-serif",
     size: 46,
+    values: (/** @type {uPlot} */ _, /** @type {number[]} */ splits) => labels(splits),
     ...(series.log && {
       splits: (
         /** @type {uPlot} */ _,

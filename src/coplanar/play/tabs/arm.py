@@ -14,8 +14,7 @@ from coplanar.play.controls import AnyControl, Choice, Slider, State, Switch, cl
 from coplanar.play.tabs import arm_copy, arm_trace, arm_view, strokes
 from coplanar.tracing import Trace, trace
 
-ROWS = 121  # of a trace
-LIVE_ROWS = 61  # while something is dragged
+LIVE_ROWS = 61  # of a trace, while something is dragged
 LIVE_STEPS = 5  # of resolved rates, by which three limited links follow the hand
 TURN = 2.0 * math.pi
 
@@ -62,6 +61,8 @@ class ArmTab:
         Choice("at_singular", "Where branches meet", group="Curve", default="through",
                options=(("through", "go through"), ("bounce", "keep the elbow"), ("stop", "stop")),
                only={"links": ("2",), "curve": tuple(name for name, _ in strokes.NAMES)}),
+        Slider("points", "Points of the trace", group="Curve", low=11.0, high=401.0, step=10.0, default=121.0,
+               only={"curve": tuple(name for name, _ in strokes.NAMES)}),
         Slider("duration", "Duration", group="Curve", unit="s", low=1.0, high=20.0, step=0.5, default=6.0,
                only={"curve": tuple(name for name, _ in strokes.NAMES)}),
     )  # fmt: skip
@@ -94,19 +95,19 @@ class ArmTab:
 
     def python(self, state: State) -> str:
         """A program with the same arm, target or curve."""
-        return arm_copy.python(state, arm_of(state), strokes.curve_of(state), ROWS)
+        return arm_copy.python(state, arm_of(state), strokes.curve_of(state))
 
     def scenario(self, state: State) -> dict[str, Any]:
         """The same as a scenario file holds it."""
-        return arm_copy.scenario(state, arm_of(state), strokes.curve_of(state), ROWS)
+        return arm_copy.scenario(state, arm_of(state), strokes.curve_of(state))
 
     def _trace(self, state: State, arm: Arm, live: bool) -> Trace | None:
         """The arm along the curve; None without one, and for three links while something is dragged."""
         curve = strokes.curve_of(state)
         if curve is None or (live and arm.n == 3):
             return None
-        singular = state["at_singular"]
-        return trace(arm, curve, LIVE_ROWS if live else ROWS, near=joints_of(state), at_singular=singular)
+        singular, rows = state["at_singular"], round(state["points"])
+        return trace(arm, curve, min(rows, LIVE_ROWS) if live else rows, near=joints_of(state), at_singular=singular)
 
 
 def arm_of(state: State) -> Arm:

@@ -13,15 +13,16 @@ from coplanar.play.tabs import strokes
 PROOF = ("smallest_conditioning", "largest_step", "position_error")
 
 
-def python(state: State, arm: Arm, curve: Curve | None, rows: int) -> str:
+def python(state: State, arm: Arm, curve: Curve | None) -> str:
     """A program with the same arm, target or curve."""
     limits = "" if arm.limits is None else f", limits=[{', '.join(map(copying.numbers, arm.limits))}]"
     lines = [f"arm = coplanar.Arm({copying.numbers(arm.links)}{limits})"]
     q = copying.numbers(state[f"q{i}"] for i in range(1, arm.n + 1))
     if curve is not None:
+        points = round(state["points"])
         lines += [
             f"curve = {strokes.code_of(state)}",
-            f'followed = coplanar.trace(arm, curve, {rows}, near={q}, at_singular="{state["at_singular"]}")',
+            f"followed = coplanar.trace(arm, curve, {points}, near={q}, at_singular={state['at_singular']!r})",
             "print(followed)",
         ]
         return copying.program(["import coplanar"], lines, [(key, f"followed.certificate.{key}") for key in PROOF])
@@ -39,14 +40,19 @@ def python(state: State, arm: Arm, curve: Curve | None, rows: int) -> str:
     return copying.program(["import coplanar"], lines, shown)
 
 
-def scenario(state: State, arm: Arm, curve: Curve | None, rows: int) -> dict[str, Any]:
+def scenario(state: State, arm: Arm, curve: Curve | None) -> dict[str, Any]:
     """The same as a scenario: the arm's pose, its reach for the target, or its way along the curve."""
     drawn: dict[str, Any] = {"links": list(arm.links)}
     if arm.limits is not None:
         drawn["limits"] = [list(pair) for pair in arm.limits]
     q = [state[f"q{i}"] for i in range(1, arm.n + 1)]
     if curve is not None:
-        way = {"points": rows, "near": q, "at_singular": state["at_singular"], "duration": state["duration"]}
+        way = {
+            "points": round(state["points"]),
+            "near": q,
+            "at_singular": state["at_singular"],
+            "duration": state["duration"],
+        }
         return {"type": "arm-trace", "arm": drawn, "curve": strokes.data_of(state), **way}
     if state["follow"] == "joints":
         return {"type": "arm-pose", "arm": drawn, "q": q}

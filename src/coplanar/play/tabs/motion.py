@@ -35,7 +35,7 @@ def _sliders(*, group: str) -> tuple[Slider, ...]:
         Slider("omega", "omega", group=group, unit="rad/s", low=-3.0, high=3.0, step=0.01, default=-1.0),
         Slider("a", "a", group=group, unit="m/s^2", low=-1.0, high=1.0, step=0.01, default=0.0),
         Slider("alpha", "alpha", group=group, unit="rad/s^2", low=-1.0, high=1.0, step=0.01, default=0.6),
-        Slider("duration", "Duration", group=group, unit="s", low=0.1, high=8.0, step=0.1, default=5.0),
+        Slider("duration", "Duration", group=group, unit="s", low=0.1, high=10.0, step=0.1, default=5.0),
     )
 
 
