@@ -15,7 +15,7 @@ from coplanar.control import PointTracker, Unicycle
 from coplanar.curves import Astroid
 from coplanar.flight import Projectile
 from coplanar.scenarios import KINDS, InvalidScenario, Outcome, from_data, load, names, truths
-from coplanar.simulate import simulate
+from coplanar.simulation import simulate
 from coplanar.wheels import WheeledBase
 
 
