@@ -79,8 +79,11 @@ STARTS = {
 }
 
 
+ELSEWHERE = {"list", "new", "check", "run", "animate", "export", "sweep", "schema", "play"}  # have fuzzing of their own
+
+
 def test_every_command_is_tried():
-    assert set(STARTS) | SLOW == set(COMMANDS)
+    assert set(STARTS) | SLOW | ELSEWHERE == set(COMMANDS)
 
 
 @pytest.mark.parametrize("name", STARTS)

@@ -51,7 +51,7 @@ def test_draws_follow_their_distribution_and_their_seed():
 
 def test_rows_together_are_rows_one_by_one():
     vary = {"controller.kp": "20:90:4", "controller.kd": [0.0, 0.2]}
-    scenario = load("track-astroid").replaced({"duration": 1, "noise": {"position": 0.01, "v": 0.02}})
+    scenario = load("track-astroid").replaced({"duration": 5, "noise": {"position": 0.01, "v": 0.02}})
     vary["noise.seed"] = [0, 3]
     table = sweep(scenario, vary, jobs=1)
     for k in range(len(table)):

@@ -29,7 +29,12 @@ def animate(
     theme: Annotated[str | None, typer.Option(help="light or dark.")] = None,
     as_json: Json = False,
 ) -> None:
-    """Make a film of a run: GIF, MP4 (extra "video"), or one HTML file with a player."""
+    """Make a film of a run.
+
+    GIF, MP4 (extra "video"), or one HTML file with a player.
+
+    Example: coplanar animate lemniscate -o film.gif
+    """
     from coplanar.viz import animate as film
 
     width, _, height = size.partition("x")
@@ -54,7 +59,12 @@ def export(
     ] = None,
     as_json: Json = False,
 ) -> None:
-    """Write a run for other programs: CSV, JSON, WPILOG, MCAP, Parquet."""
+    """Write a run for other programs.
+
+    CSV, JSON, WPILOG; MCAP and Parquet with the extra "logs".
+
+    Example: coplanar export runs/track-astroid --to wpilog
+    """
     from coplanar.logs import write_log
 
     if to is None and output is None:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from coplanar.scenarios import Outcome, Scenario
 
 Which = Annotated[str, typer.Argument(metavar="SCENARIO", help="A file, or a name that  coplanar list  shows.")]
-Several = Annotated[list[str], typer.Argument(metavar="SCENARIO...", help="Files, or names from  coplanar list.")]
+Several = Annotated[list[str], typer.Argument(metavar="SCENARIO", help="Files, or names from  coplanar list.")]
 Set = Annotated[list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Another value: controller.kp=20.")]
 Output = Annotated[str | None, typer.Option("--output", "-o", metavar="FILE", help="Write there; stdout unless given.")]
 
@@ -36,7 +36,7 @@ def loaded(name: str, changes: list[str] | None) -> Scenario:
 
 
 def list_(as_json: Json = False) -> None:
-    """List the scenarios that come with the library, and the kinds that NEW makes."""
+    """The scenarios that come with the library, and the kinds."""
     from coplanar.scenarios import KINDS, load, names
 
     scenarios = [load(name) for name in names()]
@@ -48,14 +48,20 @@ def new(
     kind: Annotated[str, typer.Argument(metavar="KIND", help="One of the kinds that  coplanar list  shows.")],
     output: Output = None,
 ) -> None:
-    """Write a commented scenario that runs as it is:  coplanar new track > mine.yaml."""
+    """Write a commented scenario that runs as it is.
+
+    Example: coplanar new track > mine.yaml
+    """
     from coplanar.scenarios import template
 
     _write(template(kind), output)
 
 
 def schema(output: Output = None) -> None:
-    """Write the JSON Schema of scenario files, for editors that complete and check them."""
+    """The JSON Schema of scenario files.
+
+    Editors complete and check by it.
+    """
     import json
 
     from coplanar import scenarios
@@ -64,7 +70,12 @@ def schema(output: Output = None) -> None:
 
 
 def check(scenario: Which, changes: Set = None, as_json: Json = False) -> None:
-    """Check a scenario before anything runs: the file, wheels, gains, reach."""
+    """Check a scenario before anything runs.
+
+    The file, wheels, gains, reach.
+
+    Example: coplanar check track-astroid --set integrator.method=rk4
+    """
     found = loaded(scenario, changes)
     findings = found.preflight()
     no = [f.sentence for f in findings if f.tone == "no"]
@@ -83,7 +94,12 @@ def run(
     resume: Annotated[bool, typer.Option("--resume", help="Leave out what has been run already.")] = False,
     as_json: Json = False,
 ) -> None:
-    """Run scenarios, each into a folder: scenario, tables, figures, summary."""
+    """Run scenarios, each into a folder.
+
+    It holds the scenario with its defaults, tables, figures, and a summary.
+
+    Example: coplanar run lemniscate
+    """
     found = [loaded(name, changes) for name in scenario]
     folders = _folders(found, output)
     with progress() as step:

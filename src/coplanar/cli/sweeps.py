@@ -32,9 +32,11 @@ def sweep(
     plot: Annotated[str | None, typer.Option(metavar="MEASURE", help="Draw it beside the table.")] = None,
     as_json: Json = False,
 ) -> None:
-    """Measure a scenario over a grid or random draws of any of its keys.
+    """Measure a scenario over a grid or random draws.
 
-    Interrupted, it keeps what is finished: the same command goes on from there.
+    Any of its keys may vary. Interrupted, it keeps what is finished: the same command goes on from there.
+
+    Example: coplanar sweep aim-speed --vary speed=20:60:30
     """
     from coplanar.sweeps import sweep as run_sweep
 

@@ -15,6 +15,7 @@ from coplanar.checks import ArrayLike
 from coplanar.viz.style import Theme, theme_on, theme_set
 
 Axes = Any  # matplotlib.axes.Axes; Matplotlib is imported when something is drawn
+LARGEST = 1e150  # of a number that is drawn: the ticks of larger ones overflow
 FEW = 6  # members of a batch that are told apart by colour; more share one
 
 
@@ -71,8 +72,9 @@ class Paper:
         return style
 
     def line(self, points: ArrayLike, colour: Any = None, **options: Any) -> Any:
-        """A line through points (n, 2); the line's colour is returned."""
+        """A line through points (n, 2), as far as they can be drawn; the line's colour is returned."""
         xy = np.asarray(points, np.float64)
+        xy = np.where(np.abs(xy) < LARGEST, xy, np.nan)
         style = self.styled(options, colour)
         self.ax.plot(xy[..., 0], xy[..., 1], **style)
         return style["color"]
