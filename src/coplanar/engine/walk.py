@@ -33,12 +33,11 @@ def running_sum(increments: Any, before: Any = None) -> Any:
         >>> running_sum(np.array([3.0]), 3.0).tolist()
         [3.0, 6.0]
     """
-    xp = namespace_of(increments) if is_foreign(increments) else np
+    xp, column = namespace_of(increments) if is_foreign(increments) else np, (*increments.shape[:-1], 1)
     if before is not None:
-        first = xp.broadcast_to(xp.asarray(before)[..., None], (*increments.shape[:-1], 1))
+        first = xp.broadcast_to(xp.asarray(before)[..., None], column)
         return xp.cumsum(xp.concat((first, increments), axis=-1), axis=-1)
-    sums = xp.cumsum(increments, axis=-1)
-    return xp.concat((xp.zeros_like(sums[..., :1]), sums), axis=-1)
+    return xp.concat((xp.zeros(column, dtype=increments.dtype), xp.cumsum(increments, axis=-1)), axis=-1)
 
 
 class Walk:
