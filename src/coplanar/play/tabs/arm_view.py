@@ -56,7 +56,7 @@ def background(arm: Arm, *, live: bool) -> Scene:
 def region(links: tuple[float, ...], limits: tuple[tuple[float, float], ...] | None) -> Region:
     """The workspace and its boundary; kept, because a drag asks for the same one sixty times a second."""
     workspace = Arm(links, limits=limits).workspace()
-    return workspace, workspace.boundary(49)
+    return workspace, workspace.boundary(145)
 
 
 def _with_limits(scene: Scene, arm: Arm, points: np.ndarray) -> Scene:
