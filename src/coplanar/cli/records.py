@@ -29,7 +29,10 @@ def animate(
     theme: Annotated[str | None, typer.Option(help="light or dark.")] = None,
     as_json: Json = False,
 ) -> None:
-    """Make a film of a run: GIF, MP4 (extra "video"), or one HTML file with a player."""
+    """Make a film of a run.
+
+    A GIF, an MP4 (extra "video"), or one HTML file with a player, by the suffix.
+    """
     from coplanar.viz import animate as film
 
     width, _, height = size.partition("x")
@@ -54,7 +57,10 @@ def export(
     ] = None,
     as_json: Json = False,
 ) -> None:
-    """Write a run for other programs: CSV, JSON, WPILOG, MCAP, Parquet."""
+    """Write a run for other programs.
+
+    As CSV, JSON, WPILOG, MCAP or Parquet (extra "logs").
+    """
     from coplanar.logs import write_log
 
     if to is None and output is None:

@@ -36,7 +36,10 @@ def loaded(name: str, changes: list[str] | None) -> Scenario:
 
 
 def list_(as_json: Json = False) -> None:
-    """List the scenarios that come with the library, and the kinds that NEW makes."""
+    """List the scenarios that come with the library.
+
+    And the kinds of which  coplanar new  writes one.
+    """
     from coplanar.scenarios import KINDS, load, names
 
     scenarios = [load(name) for name in names()]
@@ -48,14 +51,20 @@ def new(
     kind: Annotated[str, typer.Argument(metavar="KIND", help="One of the kinds that  coplanar list  shows.")],
     output: Output = None,
 ) -> None:
-    """Write a commented scenario that runs as it is:  coplanar new track > mine.yaml."""
+    """Write a commented scenario that runs as it is.
+
+    Example: coplanar new track > mine.yaml
+    """
     from coplanar.scenarios import template
 
     _write(template(kind), output)
 
 
 def schema(output: Output = None) -> None:
-    """Write the JSON Schema of scenario files, for editors that complete and check them."""
+    """Write the JSON Schema of scenario files.
+
+    Editors that know it complete and check what is typed.
+    """
     import json
 
     from coplanar import scenarios
@@ -64,7 +73,10 @@ def schema(output: Output = None) -> None:
 
 
 def check(scenario: Which, changes: Set = None, as_json: Json = False) -> None:
-    """Check a scenario before anything runs: the file, wheels, gains, reach."""
+    """Check a scenario before anything runs.
+
+    The file, the wheels, the gains, the reach; the exit code is 1 if it would not do.
+    """
     found = loaded(scenario, changes)
     findings = found.preflight()
     no = [f.sentence for f in findings if f.tone == "no"]
@@ -83,7 +95,10 @@ def run(
     resume: Annotated[bool, typer.Option("--resume", help="Leave out what has been run already.")] = False,
     as_json: Json = False,
 ) -> None:
-    """Run scenarios, each into a folder: scenario, tables, figures, summary."""
+    """Run scenarios, each into a folder of its own.
+
+    It holds the scenario as it was run, tables, figures and a summary, and appears whole or not at all.
+    """
     found = [loaded(name, changes) for name in scenario]
     folders = _folders(found, output)
     with progress() as step:
