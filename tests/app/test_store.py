@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from coplanar.errors import InvalidInput, InvalidValue
-from coplanar.scenarios import load
+from coplanar.scenarios import load, names
 from coplanar.store import is_record, read_record, whole_folder, write_record
 
 
@@ -34,6 +34,16 @@ def test_a_record_holds_the_scenario_the_numbers_the_figures(outcome, tmp_path):
         assert len(list(csv.reader(file))) == len(outcome.run) + 1
     assert "integrator" in (folder / "scenario.yaml").read_text()
     assert (folder / "figure-light.svg").read_text().startswith("<?xml")
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_demonstration_is_written_and_read(name, tmp_path):
+    outcome = load(name).run()
+    record = read_record(write_record(outcome, tmp_path / name, themes=()))
+    assert set(outcome.tables) <= {p.name for p in record.folder.iterdir()}
+    assert (record.run is None) == (outcome.run is None)
+    for column, values in {} if outcome.run is None else outcome.run.columns.items():
+        np.testing.assert_array_equal(record.run[column], values)
 
 
 def test_the_scenario_of_a_record_runs_to_the_same_numbers(outcome, tmp_path):
@@ -85,7 +95,7 @@ def test_what_fails_on_the_way_leaves_what_was_there(outcome, tmp_path):
     ("name", "content"),
     [("summary.json", "{"), ("summary.json", "[" * 100_000), ("summary.json", "3"), ("summary.json", '{"format": 9}'),
      ("summary.json", '{"format": 1, "run": {"kind": "unicycle"}}'), ("summary.json", '{"format": 1, "run": 7}'),
-     ("summary.json", '{"format": 1, "run": {"kind": "bird", "index": "t", "status": "COMPLETE"}}'),
+     ("summary.json", '{"format": 1, "run": {"kind": "bird", "index": "t", "status": "COMPLETE", "table": "run.csv"}}'),
      ("run.csv", "t,x\n0,zero\n"), ("run.csv", ""), ("scenario.yaml", "type: nothing"), ("scenario.yaml", "\0")],
 )  # fmt: skip
 def test_a_record_that_was_spoilt_is_refused(outcome, tmp_path, name, content):

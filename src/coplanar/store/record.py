@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from coplanar.errors import InvalidValue
 from coplanar.run import Run, RunStatus
 from coplanar.run.files import read_table, write_table
@@ -17,7 +19,8 @@ from coplanar.version import __version__
 from coplanar.viz import drawn_in
 from coplanar.viz.outcomes import figure_of
 
-SCENARIO, SUMMARY, TABLE = "scenario.yaml", "summary.json", "run.csv"
+SCENARIO, SUMMARY = "scenario.yaml", "summary.json"
+TABLE, MOTION = "run.csv", "motion.csv"
 FORMAT = 1
 LARGEST_SUMMARY = 2**24  # bytes
 
@@ -56,7 +59,7 @@ def write_record(outcome: Outcome, folder: Path, *, themes: tuple[str, ...] = ("
     """
     with whole_folder(folder, is_record) as part:
         (part / SCENARIO).write_text(outcome.scenario.to_yaml(defaults=True), encoding="utf-8")
-        for name, table in outcome.tables.items():
+        for name, table in _tables(outcome).items():
             write_table(part / name, table)
         for theme in themes if outcome.tables else ():
             _draw(outcome, part / f"figure-{theme}.svg", theme)
@@ -85,12 +88,27 @@ def read_record(folder: Path) -> Record:
 
 def _summary(outcome: Outcome) -> dict[str, Any]:
     run = outcome.run
-    moving = {} if run is None else {"run": {"kind": _kind(run), "index": run.index, "status": run.status.name}}
+    facts = {} if run is None else {"kind": _kind(run), "index": run.index, "status": run.status.name}
+    moving = {} if run is None else {"run": {"table": _table_of(outcome), **facts}}
     return {
         "format": FORMAT, "coplanar": __version__, "name": outcome.name, "title": outcome.title, "ok": outcome.ok,
         "status": outcome.status, "headline": outcome.headline, "check": outcome.check, "passed": outcome.passed,
         "summary": dict(outcome.summary), "warnings": list(outcome.warnings), **moving,
     }  # fmt: skip
+
+
+def _tables(outcome: Outcome) -> dict[str, Any]:
+    """The tables of an outcome, the run over time among them."""
+    moving = {} if outcome.run is None else {_table_of(outcome): outcome.run.columns}
+    return {**moving, **outcome.tables}
+
+
+def _table_of(outcome: Outcome) -> str:
+    """Which table holds the run: the first one, unless that says something else, or over something else than time."""
+    columns = {} if outcome.run is None else outcome.run.columns
+    first = outcome.tables.get(TABLE, columns)
+    same = (name in first and np.array_equal(values, first[name], equal_nan=True) for name, values in columns.items())
+    return TABLE if all(same) else MOTION
 
 
 def _kind(run: Run) -> str:
@@ -123,7 +141,9 @@ def _run(folder: Path, summary: Mapping[str, Any]) -> Run | None:
         return None
     try:
         kind, index, status = facts["kind"], facts["index"], RunStatus[facts["status"]]
+        table = read_table(folder / {TABLE: TABLE, MOTION: MOTION}[facts["table"]])
     except (KeyError, TypeError):
-        raise InvalidValue(SUMMARY, str(folder), "the kind, index and status of the run", "run it again") from None
-    table = read_table(folder / TABLE)
+        raise InvalidValue(
+            SUMMARY, str(folder), "the table, kind, index and status of the run", "run it again"
+        ) from None
     return Run(table, kind, index=index, status=status, warnings=tuple(map(str, summary.get("warnings", ()))))
