@@ -38,6 +38,9 @@ COLUMNS = {
 }
 
 
+pytestmark = pytest.mark.xdist_group("tour")  # one worker, so that the tour runs once
+
+
 @pytest.fixture(scope="module")
 def toured(tmp_path_factory):
     folder = tmp_path_factory.mktemp("tour")

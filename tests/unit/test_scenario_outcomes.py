@@ -15,7 +15,7 @@ from coplanar.control import PointTracker, Unicycle
 from coplanar.curves import Astroid
 from coplanar.flight import Projectile
 from coplanar.scenarios import KINDS, InvalidScenario, Outcome, from_data, load, names, truths
-from coplanar.simulate import simulate
+from coplanar.simulation import simulate
 from coplanar.wheels import WheeledBase
 
 
@@ -223,7 +223,7 @@ def test_scenarios_know_no_pictures():
         ("track-astroid", {"controller.kd": 0.4}, lambda o: o.summary["stable"]),
         ("clothoid", {"segments.0.a": 0}, lambda o: "a clothoid" in o.headline),
         ("drive-square", {"method": "exact"}, lambda o: o.ok),
-        ("holonomic", {"pieces.3.alpha": 0.5}, lambda o: o.summary["final_x"] == 2.0 and o.summary["final_theta"] > 0.5),
+        ("holonomic", {"pieces.3.alpha": 0.5}, lambda o: o.summary["final_x"] == 2.0 < 1.5 + o.summary["final_theta"]),
         ("rolling-wheel", {"slip": -0.2}, lambda o: o.summary["contact_speed"] == pytest.approx(0.2)),
         ("ramp", {"together": True}, lambda o: o.summary["time_x"] == o.summary["time_y"]),
         ("shot", {"projectile.drag": 0}, lambda o: o.summary["apex_y"] == pytest.approx(30000.0 / (2 * 9.81))),

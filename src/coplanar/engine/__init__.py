@@ -32,9 +32,10 @@ from coplanar.engine.arrays import (
     turn_remainder,
     where,
 )
-from coplanar.engine.evaluator import Evaluator, can_compile, evaluator
+from coplanar.engine.evaluator import Evaluator, can_compile, evaluator, reproducible
 from coplanar.engine.foreign import components, is_foreign, namespace_of, stack
 from coplanar.engine.scan import Scan
+from coplanar.engine.walk import Walk, running_sum
 
 __all__ = [
     "PI",
@@ -42,6 +43,7 @@ __all__ = [
     "Evaluator",
     "Integral",
     "Scan",
+    "Walk",
     "absolute",
     "asinh",
     "atan",
@@ -65,6 +67,8 @@ __all__ = [
     "minimum",
     "namespace_of",
     "nearest",
+    "reproducible",
+    "running_sum",
     "sin",
     "sinc",
     "sincos",

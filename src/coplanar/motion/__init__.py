@@ -9,6 +9,7 @@ from coplanar.motion.holonomic import HolonomicMotion, discretize, twist_between
 from coplanar.motion.odometry import Odometry, OdometryNoise
 from coplanar.motion.program import Program
 from coplanar.motion.ramp import Ramp, Trapezoid
+from coplanar.motion.reckoning import Reckoning, Stretch
 from coplanar.motion.segment import Segment
 
 __all__ = [
@@ -19,7 +20,9 @@ __all__ = [
     "OdometryNoise",
     "Program",
     "Ramp",
+    "Reckoning",
     "Segment",
+    "Stretch",
     "Trapezoid",
     "discretize",
     "twist_between",

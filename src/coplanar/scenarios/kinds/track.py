@@ -20,7 +20,7 @@ from coplanar.scenarios.parts.curves import ReferencePart
 from coplanar.scenarios.quantities import Duration
 from coplanar.scenarios.scenario import Progress, Scenario
 from coplanar.se2 import Pose
-from coplanar.simulate import Noise, simulate
+from coplanar.simulation import Noise, simulate
 
 ONE_STEP = 1e-9  # [m] that a step taken anew may be apart
 REFUSED = "refused before it ran: {}"

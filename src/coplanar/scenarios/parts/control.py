@@ -30,7 +30,7 @@ from coplanar.scenarios.quantities import (
     TurnRateSpread,
 )
 from coplanar.se2 import Pose
-from coplanar.simulate import Noise
+from coplanar.simulation import Noise
 
 
 class PointTrackerPart(Part):

@@ -9,6 +9,7 @@ import numpy as np
 
 from coplanar.scenarios import Outcome
 from coplanar.viz.axes import plot_headings, plot_path, plot_series
+from coplanar.viz.integrators import plot_convergence, plot_integrators
 from coplanar.viz.scene import Scene
 
 ROBOT = np.array([(0.1 * np.cos(a), 0.1 * np.sin(a)) for a in np.linspace(0.0, tau, 37)])
@@ -94,23 +95,9 @@ def ramp_scene(outcome: Outcome) -> Scene:
 
 def draw_lab(outcome: Outcome, canvas: Any) -> None:
     """The paths of every method with the longest step, and the errors over the step."""
-    compared, errors = outcome.things["comparison"], outcome.things["errors"]
     left, right = canvas.subplots(1, 2, width_ratios=(1.1, 1))
-    t = np.linspace(0.0, compared.program.duration, 400)
-    longest = float(np.max(compared.steps))
-    plot_path(
-        compared.program.pose(compared.start, t).position, left, color="C5", label="exact", linewidth=3, alpha=0.5
-    )
-    for place, (method, row) in enumerate(zip(compared.methods, errors, strict=True)):
-        look = {"color": f"C{place}", "label": method}
-        plot_path(compared.path(method, longest)[1].position, left, linewidth=1.2, marker=".", **look)
-        right.loglog(compared.steps, np.maximum(row, 1e-16), "o-", **look)
-    left.set_title(f"steps of {longest:g} s")
-    left.legend()
-    right.minorticks_off()
-    right.axhline(outcome.scenario.tolerance, linestyle="--", color="C5", linewidth=1.0)
-    right.set_xlabel("step [s]")
-    right.set_ylabel("largest distance from the exact path [m]")
+    plot_integrators(outcome.things["comparison"], left)
+    plot_convergence(outcome.things["comparison"], right, tolerance=outcome.scenario.tolerance)
 
 
 def thinned(count: int) -> slice:
