@@ -19,7 +19,7 @@ TOLD = "error: "
 
 def run(*args, data=None):
     """Exit code, stdout and stderr of a command in this process."""
-    result = CliRunner().invoke(app, [str(a) for a in args], input=data)
+    result = CliRunner(env={"COLUMNS": "80"}).invoke(app, [str(a) for a in args], input=data)
     if result.exception is not None and not isinstance(result.exception, SystemExit):
         raise result.exception
     return result.exit_code, result.stdout, result.stderr

@@ -16,9 +16,9 @@ __all__ = ["app", "main"]
 
 def main() -> None:
     """Run ``coplanar`` as the shell does; asked to end, it puts away what is half done."""
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     sys.unraisablehook = _unraised
     try:
+        signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
         from coplanar.cli.commands import app
 
         app()

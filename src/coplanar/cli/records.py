@@ -31,9 +31,7 @@ def animate(
 ) -> None:
     """Make a film of a run.
 
-    GIF, MP4 (extra "video"), or one HTML file with a player.
-
-    Example: coplanar animate lemniscate -o film.gif
+    A GIF, an MP4 (extra "video"), or one HTML file with a player, by the suffix.
     """
     from coplanar.viz import animate as film
 
@@ -61,9 +59,7 @@ def export(
 ) -> None:
     """Write a run for other programs.
 
-    CSV, JSON, WPILOG; MCAP and Parquet with the extra "logs".
-
-    Example: coplanar export runs/track-astroid --to wpilog
+    As CSV, JSON, WPILOG, MCAP or Parquet (extra "logs").
     """
     from coplanar.logs import write_log
 

@@ -36,7 +36,10 @@ def loaded(name: str, changes: list[str] | None) -> Scenario:
 
 
 def list_(as_json: Json = False) -> None:
-    """The scenarios that come with the library, and the kinds."""
+    """List the scenarios that come with the library.
+
+    And the kinds of which  coplanar new  writes one.
+    """
     from coplanar.scenarios import KINDS, load, names
 
     scenarios = [load(name) for name in names()]
@@ -58,9 +61,9 @@ def new(
 
 
 def schema(output: Output = None) -> None:
-    """The JSON Schema of scenario files.
+    """Write the JSON Schema of scenario files.
 
-    Editors complete and check by it.
+    Editors that know it complete and check what is typed.
     """
     import json
 
@@ -72,9 +75,7 @@ def schema(output: Output = None) -> None:
 def check(scenario: Which, changes: Set = None, as_json: Json = False) -> None:
     """Check a scenario before anything runs.
 
-    The file, wheels, gains, reach.
-
-    Example: coplanar check track-astroid --set integrator.method=rk4
+    The file, the wheels, the gains, the reach; the exit code is 1 if it would not do.
     """
     found = loaded(scenario, changes)
     findings = found.preflight()
@@ -94,11 +95,9 @@ def run(
     resume: Annotated[bool, typer.Option("--resume", help="Leave out what has been run already.")] = False,
     as_json: Json = False,
 ) -> None:
-    """Run scenarios, each into a folder.
+    """Run scenarios, each into a folder of its own.
 
-    It holds the scenario with its defaults, tables, figures, and a summary.
-
-    Example: coplanar run lemniscate
+    It holds the scenario as it was run, tables, figures and a summary, and appears whole or not at all.
     """
     found = [loaded(name, changes) for name in scenario]
     folders = _folders(found, output)

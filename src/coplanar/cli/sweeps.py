@@ -32,7 +32,9 @@ def sweep(
     plot: Annotated[str | None, typer.Option(metavar="MEASURE", help="Draw it beside the table.")] = None,
     as_json: Json = False,
 ) -> None:
-    """Measure a scenario over a grid or random draws.
+    """Measure a scenario over a grid, or random draws.
+
+    Of any of its keys, as many at once as there are processors, with the same table for the same seed.
 
     Any of its keys may vary. Interrupted, it keeps what is finished: the same command goes on from there.
 

@@ -33,8 +33,7 @@ def running_sum(increments: Any, before: Any = None) -> Any:
         >>> running_sum(np.array([3.0]), 3.0).tolist()
         [3.0, 6.0]
     """
-    xp = namespace_of(increments) if is_foreign(increments) else np
-    column = (*increments.shape[:-1], 1)
+    xp, column = namespace_of(increments) if is_foreign(increments) else np, (*increments.shape[:-1], 1)
     if before is not None:
         first = xp.broadcast_to(xp.asarray(before)[..., None], column)
         return xp.cumsum(xp.concat((first, increments), axis=-1), axis=-1)

@@ -4,11 +4,18 @@
 ``logs``. What cannot be read is refused with the file and the place in it; every file appears whole or not at all.
 """
 
-from coplanar.logs.choreo import read_choreo
-from coplanar.logs.formats import FORMATS, read_log, write_log
-from coplanar.logs.paths import Waypoints, read_path
-from coplanar.logs.urdf import UrdfArm, read_urdf
-from coplanar.logs.urdf_writing import write_urdf
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from coplanar.lazy import names_of
+
+if TYPE_CHECKING:
+    from coplanar.logs.choreo import read_choreo
+    from coplanar.logs.formats import FORMATS, read_log, write_log
+    from coplanar.logs.paths import Waypoints, read_path
+    from coplanar.logs.urdf import UrdfArm, read_urdf
+    from coplanar.logs.urdf_writing import write_urdf
 
 __all__ = [
     "FORMATS",
@@ -21,3 +28,14 @@ __all__ = [
     "write_log",
     "write_urdf",
 ]
+
+__getattr__, __dir__ = names_of(
+    __name__,
+    {
+        "choreo": "read_choreo",
+        "formats": "FORMATS read_log write_log",
+        "paths": "Waypoints read_path",
+        "urdf": "UrdfArm read_urdf",
+        "urdf_writing": "write_urdf",
+    },
+)

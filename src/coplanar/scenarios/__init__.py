@@ -4,15 +4,22 @@
 once.
 """
 
-from coplanar.scenarios.batches import batched, measured, varied
-from coplanar.scenarios.catalog import names
-from coplanar.scenarios.changes import read_value
-from coplanar.scenarios.kinds import KINDS
-from coplanar.scenarios.outcome import Finding, Outcome
-from coplanar.scenarios.problems import InvalidScenario, Problem
-from coplanar.scenarios.reading import from_data, load, parse
-from coplanar.scenarios.scenario import Scenario
-from coplanar.scenarios.writing import schema, template
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from coplanar.lazy import names_of
+
+if TYPE_CHECKING:
+    from coplanar.scenarios.batches import batched, measured, varied
+    from coplanar.scenarios.catalog import names
+    from coplanar.scenarios.changes import read_value
+    from coplanar.scenarios.kinds import KINDS
+    from coplanar.scenarios.outcome import Finding, Outcome
+    from coplanar.scenarios.problems import InvalidScenario, Problem
+    from coplanar.scenarios.reading import from_data, load, parse
+    from coplanar.scenarios.scenario import Scenario
+    from coplanar.scenarios.writing import schema, template
 
 __all__ = [
     "KINDS",
@@ -32,3 +39,18 @@ __all__ = [
     "template",
     "varied",
 ]
+
+__getattr__, __dir__ = names_of(
+    __name__,
+    {
+        "batches": "batched measured varied",
+        "catalog": "names",
+        "changes": "read_value",
+        "kinds": "KINDS",
+        "outcome": "Finding Outcome",
+        "problems": "InvalidScenario Problem",
+        "reading": "from_data load parse",
+        "scenario": "Scenario",
+        "writing": "schema template",
+    },
+)
