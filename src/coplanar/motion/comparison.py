@@ -22,7 +22,7 @@ _velocities = evaluator(laws.velocities)
 
 WHOLE = 1e-9  # of a step: a count this near a whole number is that number
 ROUNDING = 1e-11  # [m] an error below this is rounding, and says nothing of an order
-MOST_STEPS = 1 << 15  # of one integration
+MOST_STEPS = 1 << 14  # of one integration
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,7 +37,7 @@ class Comparison:
 
     Raises:
         InvalidShape: If the program or the start is a batch.
-        InvalidValue: If a step is not positive, or asks for more than 32768 steps.
+        InvalidValue: If a step is not positive, or asks for more than 16384 steps.
         UnknownName: If there is no such method.
 
     Example:
@@ -60,7 +60,7 @@ class Comparison:
         steps = checks.positive("steps", checks.vector("steps", self.steps))
         fewest = self.program.duration / MOST_STEPS
         if np.any(steps < fewest):
-            raise InvalidValue("steps", self.steps, f"{fewest:.3g} s or more", "more than 32768 steps say nothing new")
+            raise InvalidValue("steps", self.steps, f"{fewest:.3g} s or more", "more than 16384 steps say nothing new")
         object.__setattr__(self, "steps", checks.frozen(steps))
 
     def path(self, method: str, step: float) -> tuple[np.ndarray, Pose]:
@@ -108,7 +108,7 @@ class Comparison:
         """The largest step, to 1 %, with which a method stays within a tolerance [m] of the exact path [s].
 
         It is shortened from the longest segment's duration until it does, as the method's order says; 0 where
-        32768 steps are not enough.
+        16384 steps are not enough.
         """
         allowed, power = checks.positive("tolerance", tolerance), 1.0 / METHODS[method].order
         high = low = float(np.max(self.program.segments.duration))

@@ -18,6 +18,9 @@ from coplanar.run import Run, RunStatus
 from coplanar.se2 import Pose, Twist
 from coplanar.wheels import WheeledBase
 
+SETTLED = 1000.0  # of the times that a fall takes to settle, 1/sqrt(k g), that are integrated
+LONGEST_TURN = 100.0  # [rad] of a piece that is integrated: what follows is more of the same, and takes long
+
 
 def tool_of(arm: Arm, q: Any) -> np.ndarray:
     """Where the tool is, as sums of complex exponentials; joints (..., n) give complex numbers (...)."""
@@ -64,14 +67,23 @@ def step_error(poses: np.ndarray, driven: np.ndarray, steps: np.ndarray, method:
     return float(np.abs(_stepped(poses[:-1], driven, steps, method) - poses[1:]).max())
 
 
-def program_error(program: Program, start: Pose) -> float:
-    """The largest distance of a program's knots from an adaptive integration of its pieces at 1e-12 [m]."""
-    state, error = start.as_array(), 0.0
+def program_error(program: Program) -> float:
+    """The largest distance of a program from an adaptive integration of its pieces at 1e-12, seen from its start [m].
+
+    Only the first ``LONGEST_TURN`` [rad] of a piece are integrated; after one that turns more, what follows goes on
+    from where the program has come.
+    """
+    state, error = np.zeros(3), 0.0
     tight: dict[str, Any] = {"relative_tolerance": 1e-12, "absolute_tolerance": 1e-13}
-    for piece, end in zip(program, program.poses(start).as_array()[1:], strict=True):
-        if piece.duration > 0.0:
-            state = integrate_ode(_held_rates(piece), [0.0, piece.duration], state, method="DOP853", **tight)[-1]
-        error = max(error, float(np.hypot(*(state - end)[:2])))
+    knots = program.poses(Pose()).as_array()
+    for begin, after, piece in zip(program.knots, knots[1:], program, strict=False):
+        fastest = max(abs(piece.omega), abs(piece.omega + piece.alpha * piece.duration))
+        until = min(piece.duration, LONGEST_TURN / max(fastest, 1e-9))
+        if until > 0.0:
+            state = integrate_ode(_held_rates(piece), [0.0, until], state, method="DOP853", **tight)[-1]
+        there = program.pose(Pose(), begin + until).as_array() if until < piece.duration else after
+        error = max(error, float(np.hypot(*(state - there)[:2])))
+        state = state if until == piece.duration else after
     return error
 
 
@@ -94,17 +106,22 @@ def wheel_error(base: WheeledBase, twist: Twist, rates: np.ndarray) -> float:
     return float(max(apart))
 
 
-def flown(shot: Shot, time: np.ndarray) -> np.ndarray:
-    """Positions (n, 2) of a shot by an adaptive integration of m a = -m g - C |v| v at 1e-12 [m]."""
+def flight_error(shot: Shot, time: np.ndarray) -> float:
+    """The largest distance of a shot from an adaptive integration of m a = -m g - C |v| v at 1e-12 [m].
+
+    Times beyond ``SETTLED`` are left out: the projectile falls at its terminal speed there, step after step after step.
+    """
     k, g = shot.projectile.drag_per_mass, shot.projectile.gravity
+    early = time[time <= SETTLED / np.sqrt(k * g)] if k * g > 0.0 else time
+    early = early if early.size > 1 else time[:1] + np.array([0.0, 1.0]) * SETTLED / np.sqrt(k * g)
 
     def rates(_: float, state: np.ndarray) -> np.ndarray:
         speed = abs(complex(state[2], state[3]))
         return np.array([state[2], state[3], -k * speed * state[2], -g - k * speed * state[3]])
 
     first = (*shot.start, *shot.velocity)
-    states = integrate_ode(rates, time, first, method="DOP853", relative_tolerance=1e-12, absolute_tolerance=1e-13)
-    return states[:, :2]
+    states = integrate_ode(rates, early, first, method="DOP853", relative_tolerance=1e-12, absolute_tolerance=1e-13)
+    return float(np.hypot(*(shot.at(early).position - states[:, :2]).T).max())
 
 
 def _stepped(poses: np.ndarray, driven: np.ndarray, steps: np.ndarray, method: str) -> np.ndarray:

@@ -19,6 +19,7 @@ from coplanar.scenarios.quantities import Angle, Duration, Point, PositiveSpeed
 from coplanar.scenarios.scenario import Progress, Scenario
 
 HITS = 1e-9  # [m] by which an adaptive integration at 1e-12 may miss, of a flight of a metre
+BEYOND = "the launch that it takes is beyond every number"
 
 
 class Aimed(NamedTuple):
@@ -75,20 +76,20 @@ class AimScenario(Scenario):
         return numbers
 
     def _findings(self, things: Aimed) -> list[Finding]:
-        return [Finding(self._sentence(things.aim), "good" if things.aim.hit else "no")]
+        return [Finding(self._sentence(things.aim), "good" if things.aim.hit and arcs_of(things.aim) else "no")]
 
     def _sentence(self, aim: Aim) -> str:
         if aim.hit or self.form != "speed":
-            return aim.sentence()
+            return aim.sentence() if not aim.hit or arcs_of(aim) else BEYOND
         return f"{aim.sentence()}; {aim.least_speed:.6g} m/s would do"
 
     def _outcome(self, progress: Progress, /) -> Outcome:
         built = self.build()
         aim, arcs = built.aim, arcs_of(built.aim)
         progress(0.4)
-        misses = [self._miss(arc) for arc in arcs] if aim.hit else [0.0]
-        error, scale = max(misses), max(1.0, float(np.hypot(*built.target)))
-        shown = bool(arcs)
+        hit, shown = bool(aim.hit) and bool(arcs), bool(arcs)
+        error = max((self._miss(arc) for arc in arcs if hit), default=0.0)
+        scale = max(1.0, float(np.hypot(*built.target)))
         way = arcs[0].shot.sample(arcs[0].time, count=self.points) if shown else None
         run = (
             None if way is None else Run({"t": way.time, "x": way.x, "y": way.y, "vx": way.vx, "vy": way.vy}, "flight")
@@ -98,18 +99,19 @@ class AimScenario(Scenario):
             self._numbers(built),
             {"arcs": arcs},
             run=run,
-            ok=bool(aim.hit),
-            status=aim.sentence(),
-            headline=self._headline(aim) if aim.hit else self._sentence(aim),
+            ok=hit,
+            status=aim.sentence() if hit == aim.hit else BEYOND,
+            headline=self._headline(aim) if hit else self._sentence(aim),
             check=f"flown by DOP853 at 1e-12, {'the worse' if len(arcs) > 1 else 'it'} misses by {error:.0e} m"
-            if aim.hit else "nothing hits",
+            if hit else "nothing hits",
             passed=bool(error < HITS * scale),
             tables={"run.csv": self._table(arcs)},
-            warnings=() if aim.hit else (self._sentence(aim),),
+            warnings=() if hit else (self._sentence(aim),),
         )  # fmt: skip
 
     def _miss(self, arc: Arc) -> float:
-        return float(np.hypot(*(truths.flown(arc.shot, np.array([0.0, arc.time]))[-1] - np.array(self.target))))
+        off = np.hypot(*(arc.arrival().position - np.array(self.target)))
+        return float(off) + truths.flight_error(arc.shot, np.array([0.0, arc.time]))
 
     def _table(self, arcs: tuple[Arc, ...]) -> dict[str, Any]:
         if self.form == "time":

@@ -69,7 +69,7 @@ class Lab(Scenario):
         errors = compared.errors()
         progress(0.4)
         numbers = self._numbers_of(compared, errors)
-        exact = truths.program_error(compared.program, compared.start)
+        exact = truths.program_error(compared.program)
         orders = {method: numbers[f"{method}_order"] for method in self.methods}
         off = max((abs(order - METHODS[m].order) for m, order in orders.items() if np.isfinite(order)), default=0.0)
         largest = ", ".join(f"{m} {_in_ms(numbers[f'{m}_largest_step'])}" for m in self.methods)

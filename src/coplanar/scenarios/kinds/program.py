@@ -72,7 +72,7 @@ class ProgramScenario(Scenario):
         built = self.build()
         t, poses = built.program.sample(built.start, self.step)
         progress(0.4)
-        error = truths.program_error(built.program, built.start)
+        error = truths.program_error(built.program)
         path, twist, numbers = poses.as_array(), built.program.twist(t), self._numbers(built)
         pose = {"x": path[:, 0], "y": path[:, 1], "theta": path[:, 2]}
         kinds = [segment.kind for segment in built.program]

@@ -67,7 +67,7 @@ class ShotScenario(Scenario):
         way = shot.sample(until, count=self.points)
         progress(0.4)
         position, numbers = way.position, self._numbers(built)
-        error = float(np.hypot(*(truths.flown(shot, way.time) - position).T).max())
+        error = truths.flight_error(shot, way.time)
         columns = {"t": way.time, "x": position[:, 0], "y": position[:, 1], "vx": way.vx, "vy": way.vy}
         lands = f"; lands at {numbers['impact_x']:.3f} m" if impact.reached and self.duration is None else ""
         return self._told(

@@ -60,7 +60,9 @@ def draw_base(outcome: Outcome, canvas: Any) -> None:
     words = f"v = ({twist.vx:.3g}, {twist.vy:.3g}) m/s, omega = {twist.omega:.3g} rad/s"
     ax.set_title("\n".join([words, *base.cannot]), fontsize=9)
     for wheel, rate in zip(base.wheels, rates, strict=True):
-        ax.annotate(f"{rate:+.2f} rad/s", (1.5 * wheel.x, 1.5 * wheel.y), ha="center", va="center")
+        ahead = abs(wheel.x) > 2.0 * abs(wheel.y)  # beside such a wheel a centred text would reach into it
+        side = ("left" if wheel.x > 0.0 else "right") if ahead else "center"
+        ax.annotate(f"{rate:+.2f} rad/s", (1.5 * wheel.x, 1.5 * wheel.y), ha=side, va="center")
         ax.plot(1.5 * wheel.x, 1.5 * wheel.y, alpha=0.0)  # a text alone does not widen the axes
     ax.margins(0.3)
 
