@@ -7,6 +7,10 @@ check: test lint types layers spelling web browser
 test:
     pytest
 
+# which lines the tests reach
+coverage:
+    pytest --cov=coplanar --cov-branch --cov-report=term:skip-covered
+
 # format and lint
 lint:
     ruff format --check .
@@ -31,7 +35,7 @@ web:
 
 # the pages in a real Chromium
 browser:
-    pytest -n0 --no-cov tests/browser
+    pytest -n0 tests/browser
 
 # put the formatting right
 format:
