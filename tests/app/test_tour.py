@@ -201,6 +201,15 @@ def test_the_command_prints_the_table_and_where_the_page_is(tmp_path, monkeypatc
     assert result.stdout.rstrip().endswith("index.html")
 
 
+def test_the_command_answers_programs(tmp_path, monkeypatch, toured):
+    monkeypatch.setattr("coplanar.tour.run_tour", lambda *_, **__: toured[1])
+    result = CliRunner().invoke(app, ["tour", "-o", str(tmp_path), "--json"])
+    document = json.loads(result.stdout)
+    assert (result.exit_code, document["ok"]) == (0, True)
+    assert [row["name"] for row in document["demonstrations"]] == [demo.name for demo in toured[1]]
+    assert all(row["passed"] for row in document["demonstrations"])
+
+
 def test_a_folder_that_is_a_file_is_refused(tmp_path):
     (tmp_path / "file").write_text("")
     result = CliRunner().invoke(app, ["tour", "-o", str(tmp_path / "file")])

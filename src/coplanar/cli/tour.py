@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
+from coplanar.cli.answers import Answer, Fact, give
+from coplanar.cli.arguments import Json
 from coplanar.cli.conduct import NO
 from coplanar.cli.console import console
 from coplanar.cli.progress import progress
@@ -14,6 +16,7 @@ from coplanar.cli.progress import progress
 
 def tour(
     output: Annotated[str, typer.Option("--output", "-o", metavar="DIR", help="Folder to write.")] = "tour",
+    as_json: Json = False,
 ) -> None:
     """Run every system on its demonstration, with figures.
 
@@ -26,6 +29,9 @@ def tour(
 
     with progress() as step:
         demos = run_tour(output, progress=step)
+    if as_json:
+        give(_answer(demos, output), True)
+        return
     table = Table("demonstration", "system", "headline", "checked against", "")
     for demo in demos:
         mark = Text("holds", "green") if demo.passed else Text("fails", "red")
@@ -35,3 +41,12 @@ def tour(
     out.print(str(Path(output) / "index.html"))
     if not all(demo.passed for demo in demos):
         raise typer.Exit(NO)
+
+
+def _answer(demos: Any, output: str) -> Answer:
+    """What the table shows, for programs."""
+    failed = [demo.name for demo in demos if not demo.passed]
+    keys = ("name", "title", "headline", "check", "passed")
+    rows = [{key: getattr(demo, key) for key in keys} for demo in demos]
+    status = f"these do not hold: {', '.join(failed)}" if failed else f"all {len(demos)} demonstrations hold"
+    return Answer(status, (Fact("demonstrations", rows), Fact("page", str(Path(output) / "index.html"))), ok=not failed)
