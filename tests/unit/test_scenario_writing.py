@@ -118,3 +118,11 @@ def test_every_field_says_what_it_is_and_its_unit():
         inside = json.dumps(field)
         if '"x-unit": "' in inside.replace('"x-unit": ""', ""):
             assert field["description"].endswith("]"), key
+
+
+def test_long_texts_are_folded_without_loss():
+    words = " ".join(f"word-{i}-with-hyphens" for i in range(60))
+    scenario = load("arm-pose").replaced({"description": words})
+    written = scenario.to_yaml()
+    assert "description: >-" in written
+    assert parse(written).description == yaml.safe_load(written)["description"] == words
