@@ -120,8 +120,9 @@ def test_every_field_says_what_it_is_and_its_unit():
             assert field["description"].endswith("]"), key
 
 
-def test_long_texts_are_folded_without_loss():
-    words = " ".join(["a well-known two-link arm", "an on-line half-track"] * 20)
+@pytest.mark.parametrize("first", range(1, 20))
+def test_long_texts_are_folded_without_loss(first):
+    words = " ".join(["a" * first, *["a well-known two-link arm", "an on-line half-track"] * 20])
     scenario = load("arm-pose").replaced({"description": words})
     written = scenario.to_yaml()
     assert "description: >-" in written
