@@ -240,3 +240,10 @@ def test_what_the_comments_of_the_files_invite_to_try(name, changes, true):
 
 def load_q2(name):
     return load(name).run().things["search"].q[1]
+
+
+def test_the_low_arc_is_the_low_one(outcomes):
+    numbers, aim = outcomes["aim-speed"].summary, Projectile(1.0, 0.02).aim((30.0, 2.0), speed=30.0)
+    for name, arc in (("low", aim.low), ("high", aim.high)):
+        assert (numbers[f"{name}_angle"], numbers[f"{name}_time"]) == (arc.angle, arc.time)
+    assert outcomes["aim-speed"].tables["run.csv"]["angle"] == [aim.low.angle, aim.high.angle]

@@ -118,3 +118,12 @@ def test_every_field_says_what_it_is_and_its_unit():
         inside = json.dumps(field)
         if '"x-unit": "' in inside.replace('"x-unit": ""', ""):
             assert field["description"].endswith("]"), key
+
+
+@pytest.mark.parametrize("first", range(1, 20))
+def test_long_texts_are_folded_without_loss(first):
+    words = " ".join(["a" * first, *["a well-known two-link arm", "an on-line half-track"] * 20])
+    scenario = load("arm-pose").replaced({"description": words})
+    written = scenario.to_yaml()
+    assert "description: >-" in written
+    assert parse(written).description == yaml.safe_load(written)["description"] == words
