@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from coplanar.engine import reproducible
 from coplanar.integrators import METHODS, integrate_ode
 from coplanar.laws.motion import unicycle_rates
 from coplanar.motion import Odometry, OdometryNoise, Reckoning
@@ -49,10 +50,11 @@ def walk(reckoning, odometries):
 )
 def test_pieces_are_the_whole_to_the_last_bit(seed, shape, cuts, method):
     increments, start = ticks(seed, shape), Pose(0.3, -7.0, 2.0)
-    whole = Odometry(increments)
-    rows, spreads, end = walk(Reckoning(start, method=method), pieces(increments, cuts))
+    with reproducible():  # evaluators differ in the last bit, and the length of a piece may choose among them
+        path = Odometry(increments).path(start, method=method)
+        rows, spreads, end = walk(Reckoning(start, method=method), pieces(increments, cuts))
     assert spreads is None
-    assert np.array_equal(rows, whole.path(start, method=method).as_array()[..., 1:, :])
+    assert np.array_equal(rows, path.as_array()[..., 1:, :])
     assert np.array_equal(end.pose.as_array(), rows[..., -1, :])
 
 
