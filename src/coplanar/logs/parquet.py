@@ -19,6 +19,7 @@ from coplanar.run import Run
 from coplanar.run.files import text_of
 
 KEY = b"coplanar"
+ROWS = b"coplanar.rows"  # how many: no checksum covers the count in the footer
 _BATCH = 2**16  # rows read at a time
 _LONGEST_TEXT = 2**24  # bytes of a text, and entries of a list, in the footer
 
@@ -31,7 +32,8 @@ def write(run: Run, path: Path) -> None:
     """
     arrow, parquet = _packages()
     columns = [_as_arrow(arrow, values) for values in run.columns.values()]
-    schema = arrow.schema([(n, c.type) for n, c in zip(run.columns, columns, strict=True)], {KEY: described(run)})
+    schema = arrow.schema([(n, c.type) for n, c in zip(run.columns, columns, strict=True)])
+    schema = schema.with_metadata({KEY: described(run), ROWS: str(len(run))})
     parquet.write_table(arrow.Table.from_arrays(columns, schema=schema), path, write_page_checksum=True)
 
 
@@ -69,6 +71,8 @@ def _columns(source: Source, arrow: Any, parquet: Any) -> tuple[Any, dict[str, n
     widths = {field.name: _width(arrow, field.type) for field in schema}
     names = [name for name, width in widths.items() if width]
     table = _read(source, arrow, file, names, sum(widths.values()))
+    if description is not None and schema.metadata.get(ROWS) != str(table.num_rows).encode():
+        refuse(path, "", f"{table.num_rows} rows", "as many as were written", "the file was damaged: write it again")
     return description, {name: _as_numpy(path, table.column(name), name, description) for name in names}
 
 
