@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from math import asinh, atan, atan2, atanh, copysign, cos, cosh, expm1, hypot, log, log1p, sin, sinh, tan, tanh
 from typing import Any
 
 from coplanar.engine.arrays import DSINC_BELOW, PI, SERIES_BELOW, TAU, dsinc_series
-from coplanar.engine.gauss import panel_count, rule
+from coplanar.engine.gauss import nodes_for, panel_count, rule
 
 exp = math.exp
 absolute = abs
@@ -69,16 +70,13 @@ def dsinc(x: float) -> float:
 def integral(integrand: Any, points: int) -> Any:
     """The integral of a law that was bound to these primitives, by Gauss-Legendre panels.
 
-    ``panels`` is a bound on what one panel can take, so a fraction of a panel needs fewer nodes: the nearest
-    singularity is further away by that fraction, and half a panel loses no digits with 3/4 of them, nor a quarter with
-    half of them.
+    ``panels`` is a bound on what one panel can take, so a part of a panel needs fewer nodes; half of them are kept,
+    as the bound may speak of one factor of the integrand alone.
     """
-    shares = (points, 3 * points // 4, points // 2) if points >= 16 else (points, points, points)
-    whole, most, half_rule = (tuple(zip(*rule(n), strict=True)) for n in shares)
 
     def integrate(panels: float, lower: float, upper: float, *parameters: float) -> tuple[float, ...]:
-        pairs = half_rule if panels <= 0.25 else most if panels <= 0.5 else whole
         count = panel_count(panels)
+        pairs = _pairs(max(points // 2, nodes_for(points, panels / count)))
         half = 0.5 * (upper - lower) / count if panels <= count else math.nan
         total = _panel(integrand, lower + half, half, pairs, parameters)
         for k in range(1, count):
@@ -87,6 +85,12 @@ def integral(integrand: Any, points: int) -> Any:
         return tuple(total)
 
     return integrate
+
+
+@functools.cache
+def _pairs(points: int) -> tuple[tuple[float, float], ...]:
+    """Node and weight, one after the other."""
+    return tuple(zip(*rule(points), strict=True))
 
 
 def _panel(integrand: Any, middle: float, half: float, pairs: Any, parameters: tuple[float, ...]) -> list[float]:

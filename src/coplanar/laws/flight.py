@@ -36,6 +36,7 @@ from coplanar.engine import (
 PANEL = 2.2  # widest panel in theta
 STRAIGHT = 1e-16  # a cosine below this is straight up or down
 STEEP = 1e-10  # and takes this hodograph: t and y differ by its square, and x is linear in the true cosine
+WEAKEST = 0.5**100  # [m/s^2] gravity in a quotient only: no gravity is its limit, and a power of 2 rounds nothing
 FAINTEST = 1e-12  # [1/m] drag in ``pace`` only, so that a flight without any force has one too
 SERIES_BELOW = 1e-5  # the first term left out is below 3e-16
 
@@ -95,18 +96,23 @@ def theta_of_turn(m, v0, k, g):
 
 
 def hodograph(q, v0, A, B, k, g):
-    """The turn m, cosh(s)/cosh(s0), sinh(s)/cosh(s0) and N = (u0/u)^2 at q."""
+    """The turn m, cosh(s)/cosh(s0), sinh(s)/cosh(s0), N = (u0/u)^2 and log(m)/g at q."""
     m = 1.0 + g * q
-    up, down = A / m, B * m
-    n = 1.0 + k * v0 * v0 * q * (0.25 * (A * up + B * down) * (1.0 + 1.0 / m) + A * B * log1p_ratio(g * q))
-    return m, 0.5 * (up + down), 0.5 * (up - down), n
+    back = 1.0 / m
+    up, down = A * back, B * m
+    weak = maximum(g, WEAKEST)
+    turned = log1p(weak * q) / weak
+    n = 1.0 + k * v0 * v0 * (0.25 * q * (A * up + B * down) * (1.0 + back) + A * B * turned)
+    return m, 0.5 * (up + down), 0.5 * (up - down), n, turned
 
 
 def travel_rates(theta, v0, A, B, k, g, a):
     """Rates of t, x/cos(psi0), y: (v, v^2 cos psi/cos psi0, v^2 sin psi) exp(theta)/(a m)."""
-    m, cosh_s, sinh_s, n = hodograph(expm1(theta) / a, v0, A, B, k, g)
-    step = v0 * cosh_s * exp(theta) / (a * m)
-    return step / sqrt(n), step * v0 / n, step * v0 * sinh_s / n
+    grown = expm1(theta)
+    m, cosh_s, sinh_s, n, _ = hodograph(grown / a, v0, A, B, k, g)
+    step, slow = v0 * cosh_s * (1.0 + grown) / (a * m), 1.0 / n
+    way = step * v0 * slow
+    return step * sqrt(slow), way, way * sinh_s
 
 
 distance = Integral(travel_rates)
@@ -122,7 +128,7 @@ def travel(lower, upper, v0, c, s, k, g):
 def velocity(theta, v0, c, s, k, g):
     """Velocity vx = v0 cos psi0/sqrt N,  vy = v0 (A/m - B m)/2/sqrt N."""
     A, B = sides(c, s)
-    _, _, sinh_s, n = hodograph(expm1(theta) / pace(v0, k, g), v0, A, B, k, g)
+    _, _, sinh_s, n, _ = hodograph(expm1(theta) / pace(v0, k, g), v0, A, B, k, g)
     u = v0 / sqrt(n)
     return u * c, u * sinh_s
 
@@ -186,21 +192,23 @@ def fall_time(height, speed, g):
 
 def derivative_rates(theta, v0, c, A, B, k, g, a):
     """Derivatives of the rates of t, x, y at a constant q: by v0, then by psi0."""
-    q = expm1(theta) / a
-    m, cosh_s, sinh_s, n = hodograph(q, v0, A, B, k, g)
-    step = v0 * exp(theta) / (a * m)
-    root = sqrt(n)
-    turned = -0.5 * c * g * q * (1.0 + 1.0 / m)  # d cosh_s/d psi0 = -cos psi0 sinh(s0 - s)
-    lifted = 0.5 * c * (m + 1.0 / m)  # d sinh_s/d psi0 = cos psi0 cosh(s0 - s)
-    slowed = k * v0 * v0 * q * c * (sinh_s * (1.0 + 1.0 / m) - (A - B) * log1p_ratio(g * q)) / n  # d log N/d psi0
-    by_speed = step * cosh_s / (v0 * n)
+    grown = expm1(theta)
+    q = grown / a
+    m, cosh_s, sinh_s, n, log_m = hodograph(q, v0, A, B, k, g)
+    slow, back = 1.0 / n, 1.0 / m
+    step, root = v0 * (1.0 + grown) * back / a, sqrt(slow)
+    turned = -0.5 * c * g * q * (1.0 + back)  # d cosh_s/d psi0 = -cos psi0 sinh(s0 - s)
+    lifted = 0.5 * c * (m + back)  # d sinh_s/d psi0 = cos psi0 cosh(s0 - s)
+    slowed = k * v0 * v0 * c * (q * sinh_s * (1.0 + back) - (A - B) * log_m) * slow  # d log N/d psi0
+    by_speed = step * cosh_s * slow / v0
+    way = step * v0 * slow
     return (
-        by_speed / root,
-        2.0 * by_speed * c * v0 / n,
-        2.0 * by_speed * v0 * sinh_s / n,
-        step * (turned - 0.5 * cosh_s * slowed) / root,
-        step * v0 * (c * (turned - cosh_s * slowed) - 0.5 * (A - B) * cosh_s) / n,
-        step * v0 * (lifted * cosh_s + sinh_s * (turned - cosh_s * slowed)) / n,
+        by_speed * root,
+        2.0 * by_speed * c * v0 * slow,
+        2.0 * by_speed * v0 * sinh_s * slow,
+        step * root * (turned - 0.5 * cosh_s * slowed),
+        way * (c * (turned - cosh_s * slowed) - 0.5 * (A - B) * cosh_s),
+        way * (lifted * cosh_s + sinh_s * (turned - cosh_s * slowed)),
     )
 
 
