@@ -35,6 +35,7 @@ from coplanar.engine.arrays import (
 from coplanar.engine.evaluator import Evaluator, can_compile, evaluator
 from coplanar.engine.foreign import components, is_foreign, namespace_of, stack
 from coplanar.engine.scan import Scan
+from coplanar.engine.search import Search
 
 __all__ = [
     "PI",
@@ -42,6 +43,7 @@ __all__ = [
     "Evaluator",
     "Integral",
     "Scan",
+    "Search",
     "absolute",
     "asinh",
     "atan",

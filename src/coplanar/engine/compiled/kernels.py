@@ -13,7 +13,7 @@ from numba import njit
 
 from coplanar.engine.arrays import Integral
 from coplanar.engine.binding import bind
-from coplanar.engine.compiled import loops, scans
+from coplanar.engine.compiled import loops, rounds, scans
 from coplanar.engine.compiled.cache import in_folder
 from coplanar.engine.compiled.doubt import shows_every_nan
 from coplanar.engine.compiled.elementary import FLAGS, inline
@@ -62,6 +62,29 @@ class Loops:
                 self._loops[loop, constants] = _compile(self._laws, self._texts[kind], loop, constants)
             return self._loops[loop, constants]
 
+    def fill(self, kind, inputs, columns, shape, *, work=1, constants=()):
+        """Run a loop over rows of inputs that broadcast to the shape of the flat output columns.
+
+        Inputs that have to be spread first are, a part at a time.
+        """
+        rows = math.prod(shape)
+        ready = [_column(a, shape, rows) for a in inputs]
+        if all(column is not None for column, _ in ready):
+            ins, steps = zip(*ready, strict=True)
+            self.loop(kind, (ins, steps, columns, rows), work * rows, rows, constants)
+            return
+        whole = [np.broadcast_to(a, shape).flat for a in inputs]
+        steps = tuple(step for _, step in ready)
+        span = 16 * loops.BLOCK
+        for start in range(0, rows, span):
+            stop = min(start + span, rows)
+            ins = tuple(
+                _read_only(flat[start:stop]) if column is None else column[start:stop] if step else column
+                for (column, step), flat in zip(ready, whole, strict=True)
+            )
+            outs = tuple(c[start:stop] for c in columns)
+            self.loop(kind, (ins, steps, outs, stop - start), work * (stop - start), stop - start, constants)
+
 
 class Kernel(Loops):
     """A law inside compiled loops: ``run`` over rows, ``scan`` over steps of rows."""
@@ -100,31 +123,26 @@ class Kernel(Loops):
             outputs: Arrays of ``shape`` and that type, which may lie in memory as they like, over the inputs too.
             shape: The common shape.
         """
-        rows = math.prod(shape)
         fit = [_may_be_written(out, inputs) for out in outputs]
         targets = [out if fits else np.empty(shape, out.dtype) for out, fits in zip(outputs, fit, strict=True)]
-        self._fill([_column(a, shape, rows) for a in inputs], inputs, tuple(t.reshape(-1) for t in targets), shape)
+        self.fill("rows", inputs, tuple(t.reshape(-1) for t in targets), shape)
         for out, target in zip(outputs, targets, strict=True):
             if out is not target:
                 out[...] = target
 
-    def _fill(self, ready, inputs, columns, shape):
-        rows = math.prod(shape)
-        if all(column is not None for column, _ in ready):
-            ins, steps = zip(*ready, strict=True)
-            self.loop("rows", (ins, steps, columns, rows), rows, rows)
-            return
-        whole = [np.broadcast_to(a, shape).flat for a in inputs]
-        steps = tuple(step for _, step in ready)
-        span = 16 * loops.BLOCK
-        for start in range(0, rows, span):
-            stop = min(start + span, rows)
-            ins = tuple(
-                _read_only(flat[start:stop]) if column is None else column[start:stop] if step else column
-                for (column, step), flat in zip(ready, whole, strict=True)
-            )
-            outs = tuple(c[start:stop] for c in columns)
-            self.loop("rows", (ins, steps, outs, stop - start), stop - start, stop - start)
+
+class SearchKernel(Loops):
+    """The laws of a search inside the loops of ``rounds``."""
+
+    def __init__(self, laws, sizes, most_rounds) -> None:
+        super().__init__(laws, {"rounds": rounds})
+        more = {"WITH": 1 + sizes["ROW"], "SPAN": 3 + sizes["ARGS"], "MOST": most_rounds}
+        self._constants = tuple({**sizes, **more}.items())
+
+    def run(self, inputs, outputs, shape):
+        """Search every row of the broadcast inputs; the outputs are new arrays of ``shape``."""
+        columns = tuple(out.reshape(-1) for out in outputs)
+        self.fill("rounds", inputs, columns, shape, work=rounds.WORK, constants=self._constants)
 
 
 def _column(array, shape, rows):
