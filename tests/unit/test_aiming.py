@@ -8,6 +8,7 @@ import pytest
 from coplanar import errors
 from coplanar.flight import AimStatus, Projectile, forms, roots
 from coplanar.flight.roots import falling_root, rising_root
+from coplanar.laws.aiming import arc, farthest
 
 BALL = Projectile(mass=1.0, drag=0.02)
 FREE = Projectile(mass=1.0, drag=0.0, gravity=10.0)
@@ -80,6 +81,9 @@ class TestAim:
     def test_a_search_that_stops_early_says_so(self, words, monkeypatch):
         monkeypatch.setattr(roots, "ROUNDS", 1)
         monkeypatch.setattr(forms, "ROUNDS", 1)
+        for search in (arc, farthest):
+            monkeypatch.setattr(search, "rounds", 1)
+            monkeypatch.setattr(search, "_loops", None)
         aim = BALL.aim((20.0, 5.0), **words)
         assert aim.status is AimStatus.NOT_FOUND
         with pytest.raises(errors.NoSolution, match="stopped before"):

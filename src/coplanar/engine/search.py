@@ -77,7 +77,10 @@ class Search:
         if self._loops is not None or (rows >= FIRST_COMPILED_ROWS and can_compile()):
             answer = self.on_compiled(arrays, shape)
             return answer if shape else tuple(float(a) for a in answer)
-        return self.on_text(arrays, shape) if shape else self.on_floats(*(float(a) for a in arrays))
+        if rows != 1:
+            return self.on_text(arrays, shape)
+        answer = self.on_floats(*(a.item() for a in arrays))
+        return tuple(np.full(shape, a) for a in answer) if shape else answer
 
     def on_floats(self, *inputs: float) -> tuple[float, ...]:
         """One row by ``math``."""

@@ -11,7 +11,7 @@ from coplanar import checks
 from coplanar.checks import ArrayLike, Real
 from coplanar.engine import components, stack
 from coplanar.errors import InvalidInput, InvalidValue, NoSolution
-from coplanar.flight import forms
+from coplanar.flight import forms, reach
 from coplanar.flight.forms import AimStatus
 from coplanar.flight.shot import Shot
 from coplanar.flight.state import FlightState, plain
@@ -66,7 +66,7 @@ class Aim:
         code: Place of the status in ``AimStatus``, an int or an array of them.
         low: The low arc: the flatter launch, the shorter flight.
         high: The lofted arc; the low one again where only one launch exists.
-        furthest: How far the given speed goes in the direction of the target; infinite where that is not limited [m].
+        top_speed: The speed that was given; infinite where none was [m/s].
         shortfall: How far the target is beyond ``furthest`` at the given speed, or aside of the line of the launch at
             the given angle; 0 where it is hit [m].
     """
@@ -77,7 +77,7 @@ class Aim:
     code: Any
     low: Arc
     high: Arc
-    furthest: Real
+    top_speed: Real
     shortfall: Real
 
     @property
@@ -102,6 +102,20 @@ class Aim:
         worst = np.maximum(*(np.hypot(*np.moveaxis(end - self.target, -1, 0)) for end in ends))
         return plain(np.where(np.isnan(worst), np.inf, worst))
 
+    @property
+    def furthest(self) -> Real:
+        """How far the given speed goes in the direction of the target; infinite where that is not limited [m].
+
+        Worked out when asked.
+        """
+        (tx, ty), (sx, sy) = components(self.target), components(self.start)
+        slope = np.arctan2(ty - sy, np.abs(tx - sx))
+        limited = np.isfinite(self.top_speed) & (slope > -0.5 * np.pi)
+        if not limited.any():
+            return plain(np.full(limited.shape, np.inf))
+        speed, slope = np.where(limited, self.top_speed, 1.0), np.where(limited, slope, 0.0)
+        return plain(np.where(limited, reach.furthest(self.projectile, speed, slope).distance, np.inf))
+
     def least(self) -> Aim:
         """The launch of least speed through the same target: what a target that is out of reach needs."""
         return self.projectile.aim(self.target, start=self.start)
@@ -121,7 +135,7 @@ class Aim:
         code = np.where(rows, self.code, other.code)
         numbers = [
             plain(np.where(rows, one, two))
-            for one, two in ((self.furthest, other.furthest), (self.shortfall, other.shortfall))
+            for one, two in ((self.top_speed, other.top_speed), (self.shortfall, other.shortfall))
         ]
         return Aim(self.projectile, self.start, self.target, int(code) if code.ndim == 0 else code, *arcs, *numbers)
 
@@ -174,7 +188,7 @@ def aim(
     points = [stack(np.broadcast_arrays(*point, np.empty(shape))[:2]) for point in ((sx, sy), (tx, ty))]
     return Aim(
         projectile, checks.frozen(points[0]), checks.frozen(points[1]), int(code) if not shape else code, low, high,
-        plain(answer.furthest + np.zeros(shape)), plain(shortfall + np.zeros(shape)),
+        plain((number if name == "speed" else np.inf) + np.zeros(shape)), plain(shortfall + np.zeros(shape)),
     )  # fmt: skip
 
 

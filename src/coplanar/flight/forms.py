@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from coplanar.engine import evaluator
+from coplanar.flight.arcs import arcs, time_to
 from coplanar.flight.path import Path, at_time, by_launch, crossing
 from coplanar.flight.sight import Sight
 from coplanar.laws import flight as laws
@@ -29,7 +30,6 @@ _straight_time = evaluator(laws.straight_time)
 
 UPRIGHT = 1e-9  # cosine of a line of sight that counts as vertical: the shot is a straight one, leaning by first order
 ALONG = 1e-12  # [rad] between a launch and the line of sight that counts as along it, where only along it will do
-ASTRAY = 1e-9  # part of the distance by which a launch that was found may miss; it misses by about 1e-14
 ROUNDS = 60  # of Newton for the flight time; it takes about six
 MOST_HOLD = 115.0  # k times mean speed times time: beyond, the speed of launch is about 1e50 times the mean speed
 
@@ -123,18 +123,17 @@ def by_time(way: Way, time: np.ndarray) -> Answer:
 def by_speed(way: Way, speed: np.ndarray) -> Answer:
     """The low and the high launch at a speed; the one that goes farthest, twice, where the target is out of reach."""
     sight, length = way.ordinary()
-    low, high, best, most = sight.both(length, speed)
-    far = length > most
-    low, high = np.where(far, best, low), np.where(far, best, high)
-    (one, lost), (two, lost_too) = (_launched(sight, np.minimum(length, most), speed, z) for z in (low, high))
-    arcs, furthest = [one, two], most
-    code = np.where(lost | lost_too, NOT_FOUND, np.where(far, OUT_OF_REACH, HIT))
+    found = arcs(sight, length, speed)
+    low, high = ((speed * np.sin(z), speed * np.cos(z), t) for z, t in (found[:2], found[2:4]))
+    far = length > found.most
+    code = np.where(found.lost, NOT_FOUND, np.where(far, OUT_OF_REACH, HIT))
+    both, furthest = [low, high], found.most
     for special, instead in ((way.upright, _upright_by_speed), (way.weightless, _straight_by_speed)):
         if special.any():
             other = instead(way, speed)
-            arcs = [_merged(special, one, arc) for one, arc in zip(other[:2], arcs, strict=True)]
+            both = [_merged(special, one, arc) for one, arc in zip(other[:2], both, strict=True)]
             code, furthest = np.where(special, other.code, code), np.where(special, other.furthest, furthest)
-    return Answer(arcs[0], arcs[1], code, furthest)
+    return Answer(both[0], both[1], code, furthest)
 
 
 def by_angle(way: Way, cosine: np.ndarray, sine: np.ndarray) -> Answer:
@@ -191,16 +190,9 @@ def _found(speed: Row, lost: Row) -> Row:
 
 
 def _launched(sight: Sight, length: Row, speed: Row, zenith: Row) -> tuple[tuple[Row, Row, Row], Row]:
-    """The velocity, the time at which the path is nearest to the end of the line of sight, and whether it misses that.
-
-    A path that is nearly parallel to the line crosses it at a place known less well than the path itself.
-    """
-    path = sight.path(np.where(np.isfinite(speed), speed, 1.0), zenith)
-    end, _ = crossing(path, sight.cosine, sight.sine)
-    dx, dy = length * sight.cosine - end.x, length * sight.sine - end.y
-    later = (dx * end.vx + dy * end.vy) / (end.vx * end.vx + end.vy * end.vy)
-    lost = ~(np.hypot(dx - later * end.vx, dy - later * end.vy) <= ASTRAY * length)
-    return (speed * path.cosine, speed * path.sine, end.time + later), lost
+    """The velocity and flight time of a launch to the end of the line of sight, and whether it misses that."""
+    time, lost = time_to(sight, length, np.where(np.isfinite(speed), speed, 1.0), zenith)
+    return (speed * np.sin(zenith), speed * np.cos(zenith), time), lost
 
 
 def _straight_by_speed(way: Way, speed: Row) -> Answer:

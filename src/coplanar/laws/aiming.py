@@ -28,7 +28,6 @@ from coplanar.laws.flight import PANEL, hodograph, lean, scales, sides, theta_of
 ROUGH, FAIR = 0.12, 0.3  # shares of a panel's nodes: the flight to about 1e-5 and 1e-8
 MIDDLING, SMALL = 0.03, 1e-3  # steps after which these are too few
 FINE = 1e-6  # last step of an angle over its sector, and of theta; what is left is its square
-LEVEL = 0.3  # of a secant step to the best angle, where the range goes with it no more
 ASIDE = 0.1  # of a step, by which a flight may end beside the line to count for the next secant
 ROOM = 0.1  # part of the way to the end of its sector that a step of an angle leaves
 LONGEST = 1.0  # longest step in theta
@@ -104,9 +103,8 @@ def drag_strength(v0, k, g):
 
 
 def best_zenith(zenith, slope_s, strength):
-    """The best angle, nearly: half of the line's without drag, more towards a line that goes up."""
-    low = 0.5 * (1.0 - slope_s)
-    return zenith * (0.5 + 0.09 * strength / (1.0 + 0.128 * strength) * (1.0 - low * low))
+    """The best angle, to about a hundredth of the line's: half of it without drag, more towards a line that goes up."""
+    return zenith * (0.5 + strength / (1.0 + 0.1 * strength) * (0.071 + slope_s * (0.04 - 0.027 * slope_s)))
 
 
 def best_curve(slope_s, strength):
@@ -115,9 +113,10 @@ def best_curve(slope_s, strength):
     return 4.0 * (1.0 - (0.2 + low * (0.2 + 0.6 * low)) * strength / (1.0 + (0.77 + 0.2 * low) * strength))
 
 
-def best_turning(slope_c, strength):
-    """How much more the path of the best launch turns than without drag, nearly."""
-    return 1.0 + strength * (0.22 + 0.09 / slope_c)
+def best_turning(slope_c, slope_s, strength):
+    """How much more the path of the best launch turns than without drag, to some hundredths."""
+    steep = 0.06 * strength / (1.0 + 0.1 * strength) - 0.18
+    return 1.0 + strength * (0.17 + 0.15 / slope_c + slope_s * steep)
 
 
 def within(step, lower, upper):
@@ -141,7 +140,7 @@ def farthest_begin(v0, slope_c, slope_s, k, g):
     zenith = atan2(slope_c, slope_s)
     strength = drag_strength(v0, k, g)
     z = best_zenith(zenith, slope_s, strength)
-    theta = theta_of_turning(free_turning(z, slope_c, slope_s) * best_turning(slope_c, strength), v0, k, g)
+    theta = theta_of_turning(free_turning(z, slope_c, slope_s) * best_turning(slope_c, slope_s, strength), v0, k, g)
     a, K, G, W = scales(v0, k, g)
     curve = best_curve(slope_s, strength) / sector(slope_c, slope_s)
     start = 0.0 * v0
@@ -174,7 +173,7 @@ def farthest_improve(
     near = absolute(further) < MIDDLING
     step = within(where(near, -far_z / minimum(slope, 0.3 * like), 0.0), -z, zenith - z)
     onward = within(further + by_z * step, -minimum(theta, LONGEST), LONGEST)
-    open = unsettled(where(first, step, LEVEL * step), further / LEVEL, zenith, share)
+    open = unsettled(step, further, zenith, share)
     there = z + step
     before = where(absolute(further) < ASIDE * absolute(step), z, there)  # no secant from a flight that ends beside the line
     row = there, theta + onward, share_of(step, onward, zenith), *launch_sides(there), before, far_z
@@ -188,7 +187,9 @@ def farthest_finish(
     return z, far, theta, time, 1.0 - open
 
 
-farthest = Search(farthest_begin, farthest_span, aimed, farthest_improve, farthest_finish, rounds=24)
+_farthest = farthest_begin, farthest_span, aimed, farthest_improve, farthest_finish
+farthest = Search(*_farthest, rounds=24)
+about_farthest = Search(*_farthest, rounds=3)  # to about a hundredth, with which the arcs of nearer targets are found
 
 
 def arc_guess(zenith, best, most, free, distance, slope_c, slope_s, side):

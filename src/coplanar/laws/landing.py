@@ -99,12 +99,14 @@ def landing_improve(
 def landing_finish(open, theta, upper, t, x, y, top, end, v0, c, A, B, k, g, a, K, G, W, slope_c, slope_s, height):
     """The parameter, time, place and velocity on the line, or nearest to it, and whether it is reached: 1 or 0."""
     _, vx, vy, above, towards, pull, _ = approach(theta, x, y, v0, c, A, B, k, g, K, G, W, slope_c, slope_s, height)
-    passed = where((slope_c <= 0.0) & (above > TOUCHING * height), 1.0, never(theta, above, towards, top, g))
-    time = (1.0 - passed) * landing_time(above, towards, pull, 0.0)
+    none = never(theta, above, towards, top, g)
+    time = (1.0 - none) * landing_time(above, towards, pull, 0.0)
     way_x, way_y, _, _ = coast(time, vx, vy, k, g)
+    short = (slope_c <= 0.0) & (height - slope_s * (x + way_x) > TOUCHING * height)
+    reached = where(short, 0.0, 1.0 - none)
     _, _, _, sinh_s, n, _ = hodograph(expm1(upper), A, B, K, G, W)
     u = v0 / sqrt(n)
-    return upper, t + time, x + way_x, y + way_y, u * c, u * sinh_s, 1.0 - passed
+    return upper, t + reached * time, x + reached * way_x, y + reached * way_y, u * c, u * sinh_s, reached
 
 
 landing = Search(landing_begin, landing_span, distance, landing_improve, landing_finish)
