@@ -154,6 +154,8 @@ def broadcast(**values: Real) -> tuple[int, ...]:
         >>> broadcast(x=1.0, y=np.zeros(3))
         (3,)
     """
+    if _FLOATS.issuperset(map(type, values.values())):
+        return ()
     try:
         return np.broadcast_shapes(*(np.shape(v) for v in values.values()))
     except ValueError:

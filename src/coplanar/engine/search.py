@@ -24,9 +24,11 @@ from coplanar.engine.foreign import broadcast_shape
 from coplanar.errors import InvalidShape
 
 FIRST_COMPILED_ROWS = 2_000  # below this many a batch never waits for the compiler; a row is the work of many
+MOST_ROUNDS = 64
 TEXT_ROWS = 512  # rows that NumPy takes at a time, as every node of a panel has a row of its own
 
 Law = Callable[..., Any]
+_FLOAT = frozenset((float,))
 
 
 class Search:
@@ -50,7 +52,7 @@ class Search:
         1.0
     """
 
-    def __init__(self, begin: Law, span: Law, integral: Integral, improve: Law, finish: Law, *, rounds: int = 64) -> None:
+    def __init__(self, begin: Law, span: Law, integral: Integral, improve: Law, finish: Law, *, rounds: int = MOST_ROUNDS) -> None:
         if integral.points != gauss.WHOLE:
             raise ValueError(f"a search is along integrals of {gauss.WHOLE} points")
         laws = {"begin": begin, "span": span, "rates": integral.integrand, "improve": improve, "finish": finish}
@@ -59,14 +61,20 @@ class Search:
         self._loops: Any = None
         functools.update_wrapper(self, begin)
 
-    def __call__(self, *inputs: Any) -> tuple[Any, ...]:
+    def __call__(self, *inputs: Any, rounds: int | None = None) -> tuple[Any, ...]:
         """The answer for numbers, or arrays that broadcast.
+
+        Args:
+            *inputs: What ``begin`` takes.
+            rounds: Spend no more than so many.
 
         Raises:
             InvalidShape: If they do not broadcast.
         """
-        if {float}.issuperset(map(type, inputs)) and self._loops is None:
-            return self.on_floats(*inputs)
+        most = rounds or self.rounds
+        if _FLOAT.issuperset(map(type, inputs)):
+            one = self._loops and self._loops.one
+            return one(inputs, most) if one else self.on_floats(*inputs, rounds=most)
         arrays = [np.asarray(a, np.float64) for a in inputs]
         try:
             shape = broadcast_shape(arrays)
@@ -74,43 +82,44 @@ class Search:
             given = "shapes " + ", ".join(str(a.shape) for a in arrays)
             raise InvalidShape("arguments", given, "shapes that broadcast as in NumPy") from None
         rows = math.prod(shape)
+        if rows == 1:
+            answer = self(*(a.item() for a in arrays), rounds=rounds)
+            return tuple(np.full(shape, a) for a in answer) if shape else answer
         if self._loops is not None or (rows >= FIRST_COMPILED_ROWS and can_compile()):
-            answer = self.on_compiled(arrays, shape)
-            return answer if shape else tuple(float(a) for a in answer)
-        if rows != 1:
-            return self.on_text(arrays, shape)
-        answer = self.on_floats(*(a.item() for a in arrays))
-        return tuple(np.full(shape, a) for a in answer) if shape else answer
+            return self.on_compiled(arrays, shape, most)
+        return self.on_text(arrays, shape, most)
 
-    def on_floats(self, *inputs: float) -> tuple[float, ...]:
+    def on_floats(self, *inputs: float, rounds: int = MOST_ROUNDS) -> tuple[float, ...]:
         """One row by ``math``."""
         span, rates, improve = (self._laws[name].on_floats for name in ("span", "rates", "improve"))
         try:
             row = self._laws["begin"].on_floats(*inputs)
             going = 1.0
-            for _ in range(self.rounds):
+            for _ in range(rounds):
                 going, *state = improve(*row, *_on_nodes(rates, *span(*row)))
                 row = (*state, *row[len(state) :])
                 if not going > 0.0:
                     break
             answer: tuple[float, ...] = self._laws["finish"].on_floats(going, *row)
         except (ArithmeticError, ValueError):  # where math raises, arrays answer inf or NaN
-            return tuple(float(a) for a in self._text_block([np.array([a]) for a in inputs]))
+            return tuple(float(a) for a in self._text_block([np.array([a]) for a in inputs], rounds))
         return answer
 
-    def on_text(self, inputs: Sequence[np.ndarray], shape: tuple[int, ...]) -> tuple[np.ndarray, ...]:
+    def on_text(
+        self, inputs: Sequence[np.ndarray], shape: tuple[int, ...], rounds: int = MOST_ROUNDS
+    ) -> tuple[np.ndarray, ...]:
         """The laws as they are written, on so many NumPy rows at a time that they stay in the caches."""
         columns = [np.broadcast_to(a, shape).reshape(-1) for a in inputs]
         starts = range(0, max(len(columns[0]), 1), TEXT_ROWS)
-        blocks = [self._text_block([c[start : start + TEXT_ROWS] for c in columns]) for start in starts]
+        blocks = [self._text_block([c[start : start + TEXT_ROWS] for c in columns], rounds) for start in starts]
         return tuple(np.concatenate(parts).reshape(shape) for parts in zip(*blocks, strict=True))
 
-    def _text_block(self, inputs: list[np.ndarray]) -> tuple[np.ndarray, ...]:
+    def _text_block(self, inputs: list[np.ndarray], rounds: int) -> tuple[np.ndarray, ...]:
         begin, span, rates, improve, finish = (law.on_text for law in self._laws.values())
         whole = begin(*inputs)
         left, row, going = np.arange(len(whole[0])), list(whole), np.ones(len(whole[0]))
         spent = going.copy()
-        for _ in range(self.rounds):
+        for _ in range(rounds):
             going, *state = improve(*row, *_on_columns(rates, *span(*row)))
             row[: len(state)] = state
             open_ = going > 0.0
@@ -127,14 +136,16 @@ class Search:
         answer: tuple[np.ndarray, ...] = finish(spent, *whole)
         return answer
 
-    def on_compiled(self, inputs: Sequence[np.ndarray], shape: tuple[int, ...]) -> tuple[np.ndarray, ...]:
+    def on_compiled(
+        self, inputs: Sequence[np.ndarray], shape: tuple[int, ...], rounds: int = MOST_ROUNDS
+    ) -> tuple[np.ndarray, ...]:
         """The laws in one compiled loop over blocks of rows that advance together."""
         if self._loops is None:
             from coplanar.engine.compiled.kernels import SearchKernel
 
-            self._loops = SearchKernel({name: law.law for name, law in self._laws.items()}, self.sizes, self.rounds)
+            self._loops = SearchKernel({name: law.law for name, law in self._laws.items()}, self.sizes)
         outputs = tuple(np.empty(shape) for _ in range(self.sizes["OUT"]))
-        self._loops.run(inputs, outputs, shape)
+        self._loops.run(inputs, outputs, shape, rounds)
         return outputs
 
     @functools.cached_property

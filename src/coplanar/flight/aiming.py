@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import cos, hypot, sin
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -164,11 +165,13 @@ def aim(
     if len(given) > 1:
         raise InvalidInput(" and ".join(given), tuple(given.values()), "one of time, speed, angle, or none of them")
     tx, ty = components(checks.vector("target", target, 2))
-    sx, sy = components(checks.vector("start", start, 2))
+    sx, sy = map(checks.frozen, components(checks.vector("start", start, 2)))
     name, value = next(iter(given.items()), ("nothing", 1.0))
     check = checks.real if name == "angle" else checks.positive
     number = check(name, value)
     checks.broadcast(target=tx, start=sx, k=projectile.drag_per_mass, **{name: number})
+    if name == "speed" and (alone := _one(projectile, (sx, sy), (tx, ty), number)):
+        return alone
     rows = np.broadcast_arrays(tx - sx, ty - sy, projectile.drag_per_mass, projectile.gravity, number)
     x, y, k, g, number = (np.asarray(row, dtype=np.float64) for row in rows)
     if np.any((x == 0.0) & (y == 0.0) & ((name != "time") | (g <= 0.0))):
@@ -190,6 +193,25 @@ def aim(
         projectile, checks.frozen(points[0]), checks.frozen(points[1]), int(code) if not shape else code, low, high,
         plain((number if name == "speed" else np.inf) + np.zeros(shape)), plain(shortfall + np.zeros(shape)),
     )  # fmt: skip
+
+
+def _one(projectile: Projectile, start: tuple[Real, ...], target: tuple[Real, ...], speed: Real) -> Aim | None:
+    """The answer to one ordinary target, without arrays; None where it is not that."""
+    numbers = (*start, *target, projectile.drag_per_mass, projectile.gravity, speed)
+    if not all(type(number) is float for number in numbers):
+        return None
+    sx, sy, tx, ty, k, g, _ = numbers
+    side = -1.0 if tx < sx else 1.0
+    found = forms.one_by_speed(side * (tx - sx), ty - sy, k, g, speed)
+    if found is None:
+        return None
+    low, high, code, most = found
+    one, two = (
+        Arc(Shot._of(projectile, sx, sy, side * speed * sin(z), speed * cos(z)), time) for z, time in (low, high)
+    )
+    short = hypot(tx - sx, ty - sy) - most if code == forms.OUT_OF_REACH else 0.0
+    points = (checks.frozen(np.array(point)) for point in (start, target))
+    return Aim(projectile, *points, code, one, two, speed, short)
 
 
 def _answer(way: forms.Way, name: str, number: np.ndarray, side: np.ndarray) -> forms.Answer:

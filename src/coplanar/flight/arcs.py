@@ -12,10 +12,11 @@ import numpy as np
 
 from coplanar.flight.path import crossing
 from coplanar.flight.sight import Sight
-from coplanar.laws.aiming import about_farthest, arc, farthest
+from coplanar.laws.aiming import arc, farthest
 
 Row = Any
 
+ABOUT = 3  # rounds that tell the limit to about a hundredth
 CLEAR = 0.9  # of the rough limit: what is nearer is surely within the true one
 ASTRAY = 1e-9  # part of the distance by which a launch that was found may miss; it misses by about 1e-14
 
@@ -47,7 +48,7 @@ def arcs(sight: Sight, distance: Row, speed: Row) -> Arcs:
     columns = np.broadcast_arrays(speed, *sight, distance)
     rows = np.array([np.ravel(column) for column in columns])
     answer = np.full((6, rows.shape[1]), np.inf)
-    *limit, _, _ = about_farthest(*rows[:5])
+    *limit, _, _ = farthest(*rows[:5], rounds=ABOUT)
     left = ~_placed(answer, rows, limit, rows[5] < CLEAR * limit[1])
     if left.any():
         _place_far(answer, rows, np.flatnonzero(left))
@@ -57,9 +58,9 @@ def arcs(sight: Sight, distance: Row, speed: Row) -> Arcs:
 
 def _one(sight: Sight, distance: float, speed: float) -> Arcs:
     """The same for floats."""
-    for search in (about_farthest, farthest):
-        best, most, theta, time, known = search(speed, *sight)
-        exact = search is farthest and known > 0.0
+    for rounds in (ABOUT, None):
+        best, most, theta, time, known = farthest(speed, *sight, rounds=rounds)
+        exact = known > 0.0
         if exact and distance > most:
             return Arcs(best, time, best, time, most, False)
         if exact or distance < CLEAR * most:

@@ -7,6 +7,7 @@ Velocities are NaN where there is no launch. All rows are arrays of one shape.
 from __future__ import annotations
 
 from enum import Enum
+from math import hypot
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -134,6 +135,16 @@ def by_speed(way: Way, speed: np.ndarray) -> Answer:
             both = [_merged(special, one, arc) for one, arc in zip(other[:2], both, strict=True)]
             code, furthest = np.where(special, other.code, code), np.where(special, other.furthest, furthest)
     return Answer(both[0], both[1], code, furthest)
+
+
+def one_by_speed(x: float, y: float, k: float, g: float, speed: float) -> tuple[Any, Any, int, float] | None:
+    """Angle and time of both arcs, the code and the limit for one row of floats; None where the shot is straight."""
+    length = hypot(x, y)
+    if not (g > 0.0 and x > UPRIGHT * length):
+        return None
+    found = arcs(Sight(x / length, y / length, k, g), length, speed)
+    code = NOT_FOUND if found.lost else OUT_OF_REACH if length > found.most else HIT
+    return found[:2], found[2:4], code, found.most
 
 
 def by_angle(way: Way, cosine: np.ndarray, sine: np.ndarray) -> Answer:

@@ -110,8 +110,11 @@ def crossing(path: Path, slope_cosine: Row, slope_sine: Row, height: Row = 0.0) 
     Returns:
         The state there and True, or the state nearest to the line and False.
     """
-    *state, reached = landing(*path, slope_cosine, slope_sine, height)
-    return State(*state), np.asarray(reached) > 0.0
+    v, c, s, k, g = path
+    *state, missed = landing(
+        0.0, 0.0, v * c, v * s, k, g, height * slope_sine, -height * slope_cosine, slope_cosine, slope_sine
+    )
+    return State(*state), np.asarray(missed) <= 0.0
 
 
 def by_launch(path: Path, state: State) -> tuple[Row, Row, Row, Row]:

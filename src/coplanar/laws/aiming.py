@@ -187,9 +187,7 @@ def farthest_finish(
     return z, far, theta, time, 1.0 - open
 
 
-_farthest = farthest_begin, farthest_span, aimed, farthest_improve, farthest_finish
-farthest = Search(*_farthest, rounds=24)
-about_farthest = Search(*_farthest, rounds=3)  # to about a hundredth, with which the arcs of nearer targets are found
+farthest = Search(farthest_begin, farthest_span, aimed, farthest_improve, farthest_finish, rounds=24)
 
 
 def arc_guess(zenith, best, most, free, distance, slope_c, slope_s, side):

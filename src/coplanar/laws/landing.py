@@ -1,15 +1,16 @@
 """Where a shot comes down on a line: the laws of a search along the hodograph's integral.
 
-In the launch's own frame (origin at the launch point, x the way it goes) the line has the direction (slope_c, slope_s),
-slope_c >= 0, and the launch point stands ``height`` above it along its normal. The search goes up to where the path is
+In the launch's own frame (origin at (x_0, y_0), x the way it goes, which is to ``side``) the line has the direction
+(slope_c, slope_s), slope_c >= 0, and the launch point stands ``height`` above it along its normal. The search goes up to where the path is
 farthest above the line, and from there down: to where the way left would be fallen at the present acceleration, the
 path turning as it does without drag in a time that drag makes a little longer. That guess is right to second order, and
 what is integrated is only the way from one guess to the next.
 
-A row is (theta, upper, t, x, y) and then what stays: (top, end, v0, c, A, B, k, g, a, K, G, W, slope_c, slope_s, height).
+A row is (theta, upper, t, x, y) and then what stays: (top, end, v0, c, A, B, k, g, a, K, G, W, slope_c, slope_s,
+height, x_0, y_0, side).
 """
 
-from coplanar.engine import Search, absolute, expm1, log1p, maximum, minimum, sqrt, where
+from coplanar.engine import Search, absolute, expm1, hypot, log1p, maximum, minimum, sincos, sqrt, where
 from coplanar.laws.flight import (
     PANEL,
     ballistic_bend,
@@ -32,17 +33,20 @@ SLOWEST = 1e-30  # [m/s] in a quotient, so that nothing left to fall takes no ti
 TOUCHING = 1e-13  # a wall is reached when this part of the way to it is left
 
 
-def landing_begin(v0, c, s, k, g, slope_c, slope_s, height):
+def landing_begin(x_0, y_0, vx, vy, k, g, line_x, line_y, line_c, line_s):
     """From the launch towards the top of the path above the line, one panel at the most."""
+    side, v0 = where(vx < 0.0, -1.0, 1.0), hypot(vx, vy)
+    c, s, slope_s = absolute(vx) / v0, vy / v0, side * line_s
+    height = line_c * (y_0 - line_y) - line_s * (x_0 - line_x)
     A, B = sides(c, s)
-    top = theta_of_turn(parallel_turn(c, s, slope_c, slope_s), v0, k, g)
+    top = theta_of_turn(parallel_turn(c, s, line_c, slope_s), v0, k, g)
     end = where(g > 0.0, maximum(top, theta_of_turn(last_turn(v0, c, s, k, g), v0, k, g)), LAST)
     start = 0.0 * v0
     row = start, minimum(top, PANEL), start, start, start
-    return *row, top, end, v0, c, A, B, k, g, *scales(v0, k, g), slope_c, slope_s, height
+    return *row, top, end, v0, c, A, B, k, g, *scales(v0, k, g), line_c, slope_s, height, x_0, y_0, side
 
 
-def landing_span(theta, upper, t, x, y, top, end, v0, c, A, B, k, g, a, K, G, W, slope_c, slope_s, height):
+def landing_span(theta, upper, t, x, y, top, end, v0, c, A, B, k, g, a, K, G, W, slope_c, slope_s, height, x_0, y_0, side):
     """The rates of travel from one guess to the next."""
     return absolute(upper - theta) / PANEL, theta, upper, A, B, K, G, W
 
@@ -82,7 +86,8 @@ def theta_after(theta, time, v, A, B, g, a, G):
 
 
 def landing_improve(
-    theta, upper, t, x, y, top, end, v0, c, A, B, k, g, a, K, G, W, slope_c, slope_s, height, more_t, more_x, more_y
+    theta, upper, t, x, y, top, end, v0, c, A, B, k, g, a, K, G, W, slope_c, slope_s, height, x_0, y_0, side,
+    more_t, more_x, more_y,
 ):
     """The state at the end of the integral, and the next guess; it goes on while that is another step away."""
     unit = v0 / a
@@ -96,8 +101,8 @@ def landing_improve(
     return open, upper, upper + step, t, x, y
 
 
-def landing_finish(open, theta, upper, t, x, y, top, end, v0, c, A, B, k, g, a, K, G, W, slope_c, slope_s, height):
-    """The parameter, time, place and velocity on the line, or nearest to it, and whether it is reached: 1 or 0."""
+def landing_finish(open, theta, upper, t, x, y, top, end, v0, c, A, B, k, g, a, K, G, W, slope_c, slope_s, height, x_0, y_0, side):
+    """The parameter, time, place and velocity on the line, or nearest to it, 0 where it is reached, 1 where not."""
     _, vx, vy, above, towards, pull, _ = approach(theta, x, y, v0, c, A, B, k, g, K, G, W, slope_c, slope_s, height)
     none = never(theta, above, towards, top, g)
     time = (1.0 - none) * landing_time(above, towards, pull, 0.0)
@@ -106,7 +111,14 @@ def landing_finish(open, theta, upper, t, x, y, top, end, v0, c, A, B, k, g, a, 
     reached = where(short, 0.0, 1.0 - none)
     _, _, _, sinh_s, n, _ = hodograph(expm1(upper), A, B, K, G, W)
     u = v0 / sqrt(n)
-    return upper, t + reached * time, x + reached * way_x, y + reached * way_y, u * c, u * sinh_s, reached
+    x, y = x + reached * way_x, y + reached * way_y
+    return upper, t + reached * time, x_0 + side * x, y_0 + y, side * u * c, u * sinh_s, 1.0 - reached
 
 
 landing = Search(landing_begin, landing_span, distance, landing_improve, landing_finish)
+
+
+def launch_velocity(v0, psi):
+    """Velocity v0 (cos psi, sin psi)."""
+    s, c = sincos(psi)
+    return v0 * c, v0 * s

@@ -62,7 +62,7 @@ class Loops:
                 self._loops[loop, constants] = _compile(self._laws, self._texts[kind], loop, constants)
             return self._loops[loop, constants]
 
-    def fill(self, kind, inputs, columns, shape, *, work=1, constants=()):
+    def fill(self, kind, inputs, columns, shape, *, more=(), work=1, constants=()):
         """Run a loop over rows of inputs that broadcast to the shape of the flat output columns.
 
         Inputs that have to be spread first are, a part at a time.
@@ -71,7 +71,7 @@ class Loops:
         ready = [_column(a, shape, rows) for a in inputs]
         if all(column is not None for column, _ in ready):
             ins, steps = zip(*ready, strict=True)
-            self.loop(kind, (ins, steps, columns, rows), work * rows, rows, constants)
+            self.loop(kind, (ins, steps, columns, rows, *more), work * rows, rows, constants)
             return
         whole = [np.broadcast_to(a, shape).flat for a in inputs]
         steps = tuple(step for _, step in ready)
@@ -83,7 +83,7 @@ class Loops:
                 for (column, step), flat in zip(ready, whole, strict=True)
             )
             outs = tuple(c[start:stop] for c in columns)
-            self.loop(kind, (ins, steps, outs, stop - start), work * (stop - start), stop - start, constants)
+            self.loop(kind, (ins, steps, outs, stop - start, *more), work * (stop - start), stop - start, constants)
 
 
 class Kernel(Loops):
@@ -134,15 +134,20 @@ class Kernel(Loops):
 class SearchKernel(Loops):
     """The laws of a search inside the loops of ``rounds``."""
 
-    def __init__(self, laws, sizes, most_rounds) -> None:
+    def __init__(self, laws, sizes) -> None:
         super().__init__(laws, {"rounds": rounds})
-        more = {"WITH": 1 + sizes["ROW"], "SPAN": 3 + sizes["ARGS"], "MOST": most_rounds}
+        more = {"WITH": 1 + sizes["ROW"], "SPAN": 3 + sizes["ARGS"]}
         self._constants = tuple({**sizes, **more}.items())
+        self.one = None  # from a tuple of numbers and the rounds to the answer; there after the first batch
 
-    def run(self, inputs, outputs, shape):
+    def run(self, inputs, outputs, shape, rounds_at_most):
         """Search every row of the broadcast inputs; the outputs are new arrays of ``shape``."""
         columns = tuple(out.reshape(-1) for out in outputs)
-        self.fill("rounds", inputs, columns, shape, work=rounds.WORK, constants=self._constants)
+        more = (rounds_at_most,)
+        self.fill("rounds", inputs, columns, shape, more=more, work=rounds.WORK, constants=self._constants)
+        if self.one is None:
+            self._call("rounds", "rounds_one", self._constants, ((0.5,) * len(inputs), 1))
+            self.one = self._compiled("rounds", "rounds_one", self._constants)
 
 
 def _column(array, shape, rows):

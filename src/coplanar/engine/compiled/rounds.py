@@ -1,7 +1,7 @@
 """The loops of a search along an integral: a block of rows advances together, and rows that have settled leave.
 
 ``begin``, ``span``, ``rates``, ``improve``, ``finish``, their safe forms and the constants ROW (numbers of a row), WITH
-(and whether it goes on), STATE, SPAN (what a span has), ARGS (of them parameters), SUMS and MOST are names that ``coplanar.engine.compiled.kernels`` supplies; the bodies are templates and never run as they
+(and whether it goes on), STATE, SPAN (what a span has), ARGS (of them parameters), and SUMS are names that ``coplanar.engine.compiled.kernels`` supplies; the bodies are templates and never run as they
 stand. A row shows a NaN where a fast primitive does not answer; it is searched for again, safely, from its beginning.
 
 The columns of the table are the row (ROW), its span (how many panels; middle and half of the present one; the
@@ -123,14 +123,14 @@ def leave(table, settled, which, rows):
     return left
 
 
-def rounds_block(ins, steps, outs, start, rows):
+def rounds_block(ins, steps, outs, most, start, rows):
     """One block of rows from its beginning to the answers."""
     table, settled = np.empty((ROW + 1 + SPAN + 2 * SUMS, WIDTH)), np.empty((1 + ROW, WIDTH))  # noqa: F821
     which, place = np.arange(WIDTH), np.empty(WIDTH, np.int64)
     for i in range(rows):
         put(table, 0, i, begin(*gather(ins, steps, start, i)))  # noqa: F821
     open_rows = rows
-    for _ in range(MOST):  # noqa: F821
+    for _ in range(most):
         integrals(table, place, open_rows)
         if judge(table, open_rows) < open_rows:
             open_rows = leave(table, settled, which, open_rows)
@@ -144,25 +144,30 @@ def rounds_block(ins, steps, outs, start, rows):
         check = scatter(outs, start, i, finish(*some(settled, 0, i, WITH)))  # noqa: F821
         doubtful += 0 if check == check else 1  # NaN is what does not equal itself
     if doubtful:
-        again(ins, steps, outs, start, rows)
+        again(ins, steps, outs, most, start, rows)
 
 
-def again(ins, steps, outs, start, rows):
+def again(ins, steps, outs, most, start, rows):
     """The rows that came out as NaN, safely."""
     for i in range(rows):
         if sum_of(outs, start, i) != sum_of(outs, start, i):
-            search_row(ins, steps, outs, start, i)
+            search_row(ins, steps, outs, most, start, i)
 
 
-def search_row(ins, steps, outs, start, i):
+def search_row(ins, steps, outs, most, start, i):
     """One row from its beginning to the answer by the safe laws."""
-    row = safe_begin(*gather(ins, steps, start, i))  # noqa: F821
+    scatter(outs, start, i, rounds_one(gather(ins, steps, start, i), most))
+
+
+def rounds_one(inputs, most):
+    """The answer to one row of numbers by the safe laws."""
+    row = safe_begin(*inputs)  # noqa: F821
     going = 1.0
-    for _ in range(MOST):  # noqa: F821
+    for _ in range(most):
         if going > 0.0:
             sums = row_integrals(safe_span(*row))  # noqa: F821
             going, row = row_after(row, sums)
-    scatter(outs, start, i, safe_finish(going, *row))  # noqa: F821
+    return safe_finish(going, *row)  # noqa: F821
 
 
 def row_after(row, sums):
@@ -186,20 +191,20 @@ def row_integrals(given):
     return scaled_terms(total, half)
 
 
-def rounds_serial(ins, steps, outs, rows):
+def rounds_serial(ins, steps, outs, rows, most):
     """All blocks, one after another."""
     for b in range((rows + WIDTH - 1) // WIDTH):
         start = b * WIDTH
-        rounds_block(ins, steps, outs, start, min(WIDTH, rows - start))
+        rounds_block(ins, steps, outs, most, start, min(WIDTH, rows - start))
 
 
-def rounds_parallel(ins, steps, outs, rows):
+def rounds_parallel(ins, steps, outs, rows, most):
     """All blocks, shared among threads."""
     for b in prange((rows + WIDTH - 1) // WIDTH):
         start = b * WIDTH
-        rounds_block(ins, steps, outs, start, min(WIDTH, rows - start))
+        rounds_block(ins, steps, outs, most, start, min(WIDTH, rows - start))
 
 
 PARTS = (
-    rule_for, spans, panel, integrals, judge, leave, row_integrals, row_after, search_row, again, rounds_block,
+    rule_for, spans, panel, integrals, judge, leave, row_integrals, row_after, rounds_one, search_row, again, rounds_block,
 )  # fmt: skip
