@@ -13,6 +13,7 @@ from coplanar.checks import ArrayLike, Real
 from coplanar.engine import components, stack
 from coplanar.errors import InvalidInput, InvalidValue, NoSolution
 from coplanar.flight import forms, reach
+from coplanar.flight.answers import answers
 from coplanar.flight.forms import AimStatus
 from coplanar.flight.shot import Shot
 from coplanar.flight.state import FlightState, plain
@@ -130,7 +131,7 @@ class Aim:
     def where(self, rows: Any, other: Aim) -> Aim:
         """This answer in the rows that are True, the other one elsewhere; both are for the same targets."""
         arcs = [
-            _arc(self.projectile, tuple(components(self.start)), _chosen(rows, one, two), 1.0, np.shape(rows))
+            _arc(self.projectile, tuple(components(self.start)), _chosen(rows, one, two))
             for one, two in ((self.low, other.low), (self.high, other.high))
         ]
         code = np.where(rows, self.code, other.code)
@@ -169,30 +170,19 @@ def aim(
     name, value = next(iter(given.items()), ("nothing", 1.0))
     check = checks.real if name == "angle" else checks.positive
     number = check(name, value)
-    checks.broadcast(target=tx, start=sx, k=projectile.drag_per_mass, **{name: number})
+    k, g = projectile.drag_per_mass, projectile.gravity
+    shape = checks.broadcast(target=tx, start=sx, k=k, **{name: number})
     if name == "speed" and (alone := _one(projectile, (sx, sy), (tx, ty), number)):
         return alone
-    rows = np.broadcast_arrays(tx - sx, ty - sy, projectile.drag_per_mass, projectile.gravity, number)
-    x, y, k, g, number = (np.asarray(row, dtype=np.float64) for row in rows)
-    if np.any((x == 0.0) & (y == 0.0) & ((name != "time") | (g <= 0.0))):
+    found = answers(name, [tx, ty, sx, sy, k, g, number], shape)
+    if found.lost_point:
         raise InvalidValue(
             "target", target, "a point away from the launch point", "only a flight time leads back to it"
         )
-    side = np.where(x < 0.0, -1.0, 1.0)
-    way = forms.Way(np.abs(x), y, k, g)
-    with np.errstate(all="ignore"):  # what is not a number is said by the code
-        answer = _answer(way, name, number, side)
-    shortfall = np.where(answer.code == forms.OUT_OF_REACH, way.distance - answer.furthest, 0.0)
-    if name == "angle":
-        shortfall = np.where(answer.code == forms.OFF_THE_LINE, _aside(way, side * np.cos(number), np.sin(number)), 0.0)
-    shape = rows[0].shape
-    low, high = (_arc(projectile, (sx, sy), arc, side, shape) for arc in (answer.low, answer.high))
-    code = np.broadcast_to(answer.code, shape)
-    points = [stack(np.broadcast_arrays(*point, np.empty(shape))[:2]) for point in ((sx, sy), (tx, ty))]
-    return Aim(
-        projectile, checks.frozen(points[0]), checks.frozen(points[1]), int(code) if not shape else code, low, high,
-        plain((number if name == "speed" else np.inf) + np.zeros(shape)), plain(shortfall + np.zeros(shape)),
-    )  # fmt: skip
+    arcs = (_arc(projectile, (sx, sy), arc) for arc in (found.low, found.high))
+    ends = (_spread(stack(point), (*shape, 2)) for point in ((sx, sy), (tx, ty)))
+    top = _spread(number if name == "speed" else np.inf, shape)
+    return Aim(projectile, *ends, found.code if shape else int(found.code), *arcs, plain(top), plain(found.shortfall))
 
 
 def _one(projectile: Projectile, start: tuple[Real, ...], target: tuple[Real, ...], speed: Real) -> Aim | None:
@@ -214,25 +204,14 @@ def _one(projectile: Projectile, start: tuple[Real, ...], target: tuple[Real, ..
     return Aim(projectile, *points, code, one, two, speed, short)
 
 
-def _answer(way: forms.Way, name: str, number: np.ndarray, side: np.ndarray) -> forms.Answer:
-    if name == "time":
-        return forms.by_time(way, number)
-    if name == "speed":
-        return forms.by_speed(way, number)
-    if name == "angle":
-        return forms.by_angle(way, side * np.cos(number), np.sin(number))
-    return forms.by_least(way)
-
-
-def _aside(way: forms.Way, cosine: np.ndarray, sine: np.ndarray) -> np.ndarray:
-    """Distance of the target from the half line along which it is launched."""
-    ahead = way.x * cosine + way.y * sine > 0.0
-    return np.where(ahead, np.abs(way.x * sine - way.y * cosine), way.distance)
-
-
-def _arc(projectile: Projectile, start: tuple[Real, ...], arc: Any, side: Any, shape: tuple[int, ...]) -> Arc:
-    vx, vy, time = (plain(np.broadcast_to(part, shape)) for part in (side * arc[0], arc[1], arc[2]))
+def _arc(projectile: Projectile, start: tuple[Real, ...], arc: Any) -> Arc:
+    vx, vy, time = map(plain, arc)
     return Arc(Shot._of(projectile, *start, vx, vy), time)
+
+
+def _spread(value: Any, shape: tuple[int, ...]) -> np.ndarray:
+    """A copy of the value, seen in a shape."""
+    return np.broadcast_to(checks.frozen(np.asarray(value)), shape)
 
 
 def _chosen(rows: Any, yes: Arc, no: Arc) -> list[Any]:

@@ -16,8 +16,8 @@ from coplanar.laws.aiming import arc, farthest
 
 Row = Any
 
-ABOUT = 3  # rounds that tell the limit to about a hundredth
-CLEAR = 0.9  # of the rough limit: what is nearer is surely within the true one
+ABOUT = 2  # rounds that tell the limit to about a thousandth
+CLEAR = 0.95  # of the rough limit: what is nearer is surely within the true one
 ASTRAY = 1e-9  # part of the distance by which a launch that was found may miss; it misses by about 1e-14
 
 
