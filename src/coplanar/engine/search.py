@@ -23,7 +23,7 @@ from coplanar.engine.evaluator import Evaluator, can_compile, evaluator
 from coplanar.engine.foreign import broadcast_shape
 from coplanar.errors import InvalidShape
 
-FIRST_COMPILED_ROWS = 2_000  # below this many a batch never waits for the compiler; a row is the work of many
+FIRST_COMPILED_ROWS = 5_000  # below this many a batch never waits for the compiler; a row is the work of many
 MOST_ROUNDS = 64
 TEXT_ROWS = 512  # rows that NumPy takes at a time, as every node of a panel has a row of its own
 

@@ -36,6 +36,7 @@ class Loops:
         self._texts = texts
         self._lock = threading.Lock()
         self._loops: dict = {}
+        self._parts: dict = {}
 
     def loop(self, kind, arguments, work, rows, constants=()):
         """Threads where they pay and are free; a forked child never touches the parent's threads."""
@@ -53,14 +54,26 @@ class Loops:
             self._compiled(kind, loop, constants)(*arguments)
         except OSError:  # the cache folder went away, or is full
             with self._lock:
-                self._loops[loop, constants] = _compile(self._laws, self._texts[kind], loop, constants, cached=False)
+                self._loops[loop, constants] = self._compile(kind, loop, constants, cached=False)
             self._loops[loop, constants](*arguments)
 
     def _compiled(self, kind, loop, constants):
         with self._lock:
             if (loop, constants) not in self._loops:
-                self._loops[loop, constants] = _compile(self._laws, self._texts[kind], loop, constants)
+                self._loops[loop, constants] = self._compile(kind, loop, constants)
             return self._loops[loop, constants]
+
+    def _compile(self, kind, loop, constants, *, cached=True):
+        """A loop over these laws; the loops of a kind share their parts."""
+        label = _label(self._laws, constants)
+        if (kind, constants) not in self._parts:
+            self._parts[kind, constants] = _parts(self._laws, self._texts[kind], label, dict(constants))
+        with in_folder() as writeable:
+            return njit(
+                _template(getattr(self._texts[kind], loop), label, self._parts[kind, constants]),
+                fastmath=FLAGS, error_model="numpy", nogil=True,
+                cache=cached and writeable, parallel=loop.endswith("parallel"),
+            )  # fmt: skip
 
     def fill(self, kind, inputs, columns, shape, *, more=(), work=1, constants=()):
         """Run a loop over rows of inputs that broadcast to the shape of the flat output columns.
@@ -173,23 +186,22 @@ def _may_be_written(out, inputs):
     return out.flags.c_contiguous and out.flags.aligned and not any(np.may_share_memory(out, a) for a in inputs)
 
 
-def _compile(laws, texts, loop, constants, *, cached=True):
-    """The loop over these laws; beside each of them stands its safe form under the name ``safe_...``."""
+def _label(laws, constants):
+    """What tells the loops of these laws from all others."""
     first = next(iter(laws.values()))
     digest = _digest(*laws.values())
-    label = "_".join([first.__module__.rpartition(".")[2], first.__name__, *(f"{k}{v}" for k, v in constants), digest])
-    names = dict(constants)
+    return "_".join([first.__module__.rpartition(".")[2], first.__name__, *(f"{k}{v}" for k, v in constants), digest])
+
+
+def _parts(laws, texts, label, names):
+    """The parts of loops over these laws by name; beside each law stands its safe form under the name ``safe_...``."""
     for name, law in laws.items():
         safe_law = bind(law, SAFE, _out_of_line, _safe_laws)
         names[f"safe_{name}"] = safe_law
         names[name] = bind(law, FAST, inline, _fast_laws) if shows_every_nan(law) else safe_law
     for part in texts.PARTS:
         names[part.__name__] = njit(_template(part, label, names), fastmath=FLAGS, error_model="numpy", nogil=True)
-    with in_folder() as writeable:
-        return njit(
-            _template(getattr(texts, loop), label, names), fastmath=FLAGS, error_model="numpy", nogil=True,
-            cache=cached and writeable, parallel=loop.endswith("parallel"),
-        )  # fmt: skip
+    return names
 
 
 def _template(text, label, names):
