@@ -52,7 +52,9 @@ class Search:
         1.0
     """
 
-    def __init__(self, begin: Law, span: Law, integral: Integral, improve: Law, finish: Law, *, rounds: int = MOST_ROUNDS) -> None:
+    def __init__(
+        self, begin: Law, span: Law, integral: Integral, improve: Law, finish: Law, *, rounds: int = MOST_ROUNDS
+    ) -> None:
         if integral.points != gauss.WHOLE:
             raise ValueError(f"a search is along integrals of {gauss.WHOLE} points")
         laws = {"begin": begin, "span": span, "rates": integral.integrand, "improve": improve, "finish": finish}
@@ -169,7 +171,9 @@ def _on_nodes(rates: Law, panels: float, lower: float, upper: float, *parameters
         middle = lower + (2 * k + 1) * half
         for node, weight in zip(nodes, weights, strict=True):
             terms = rates(middle + node * half, *parameters)
-            total = [t + weight * f for t, f in zip(total, terms, strict=True)] if total else [weight * f for f in terms]
+            total = (
+                [t + weight * f for t, f in zip(total, terms, strict=True)] if total else [weight * f for f in terms]
+            )
     return [half * t for t in total]
 
 

@@ -179,10 +179,11 @@ def aim(
         raise InvalidValue(
             "target", target, "a point away from the launch point", "only a flight time leads back to it"
         )
-    arcs = (_arc(projectile, (sx, sy), arc) for arc in (found.low, found.high))
-    ends = (_spread(stack(point), (*shape, 2)) for point in ((sx, sy), (tx, ty)))
+    low, high = (_arc(projectile, (sx, sy), arc) for arc in (found.low, found.high))
+    begin, end = (_spread(stack(point), (*shape, 2)) for point in ((sx, sy), (tx, ty)))
     top = _spread(number if name == "speed" else np.inf, shape)
-    return Aim(projectile, *ends, found.code if shape else int(found.code), *arcs, plain(top), plain(found.shortfall))
+    code = found.code if shape else int(found.code)
+    return Aim(projectile, begin, end, code, low, high, plain(top), plain(found.shortfall))
 
 
 def _one(projectile: Projectile, start: tuple[Real, ...], target: tuple[Real, ...], speed: Real) -> Aim | None:
@@ -200,8 +201,8 @@ def _one(projectile: Projectile, start: tuple[Real, ...], target: tuple[Real, ..
         Arc(Shot._of(projectile, sx, sy, side * speed * sin(z), speed * cos(z)), time) for z, time in (low, high)
     )
     short = hypot(tx - sx, ty - sy) - most if code == forms.OUT_OF_REACH else 0.0
-    points = (checks.frozen(np.array(point)) for point in (start, target))
-    return Aim(projectile, *points, code, one, two, speed, short)
+    begin, end = (checks.frozen(np.array(point)) for point in (start, target))
+    return Aim(projectile, begin, end, code, one, two, speed, short)
 
 
 def _arc(projectile: Projectile, start: tuple[Real, ...], arc: Any) -> Arc:

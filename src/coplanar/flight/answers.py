@@ -16,7 +16,7 @@ class Answers:
     """The answers to all rows.
 
     Attributes:
-        low: Velocity and time of the low arc, shape (3, ...), not mirrored back.
+        low: Velocity and time of the low arc, three arrays.
         high: Of the lofted one.
         code: Places of the statuses.
         shortfall: How far every row falls short [m].
@@ -24,8 +24,9 @@ class Answers:
     """
 
     def __init__(self, shape: tuple[int, ...]) -> None:
-        self._table = np.empty((7, *shape))
-        self.low, self.high, self.shortfall = self._table[:3], self._table[3:6], self._table[6, ...]
+        table = np.empty((7, *shape))
+        *arcs, self.shortfall = (table[k, ...] for k in range(7))
+        self.low, self.high = tuple(arcs[:3]), tuple(arcs[3:])
         self.code = np.empty(shape, np.intp)
         self.lost_point = False
 
@@ -46,7 +47,7 @@ def answers(name: str, columns: list[Any], shape: tuple[int, ...]) -> Answers:
 
 def _flat(whole: Answers) -> Answers:
     flat = Answers((0,))
-    flat.low, flat.high = whole.low.reshape(3, -1), whole.high.reshape(3, -1)
+    flat.low, flat.high = (tuple(column.reshape(-1) for column in arc) for arc in (whole.low, whole.high))
     flat.code, flat.shortfall = whole.code.reshape(-1), whole.shortfall.reshape(-1)
     return flat
 
@@ -60,7 +61,7 @@ def _fill(whole: Answers, rows: tuple[slice, ...], name: str, columns: list[np.n
         answer = _answer(way, name, number, side)
     for place, (vx, vy, time) in ((whole.low, answer.low), (whole.high, answer.high)):
         for k, part in enumerate((side * vx, vy, time)):
-            place[(k, *rows)] = part
+            place[k][rows] = part
     whole.code[rows] = answer.code
     whole.shortfall[rows] = _shortfall(way, name, number, side, answer)
 

@@ -52,8 +52,8 @@ def arcs(sight: Sight, distance: Row, speed: Row) -> Arcs:
     left = ~_placed(answer, rows, limit, rows[5] < CLEAR * limit[1])
     if left.any():
         _place_far(answer, rows, np.flatnonzero(left))
-    *numbers, lost = (part.reshape(columns[0].shape) for part in answer)
-    return Arcs(*numbers, lost > 0.0)
+    low, low_time, high, high_time, most, lost = answer.reshape(6, *columns[0].shape)
+    return Arcs(low, low_time, high, high_time, most, lost > 0.0)
 
 
 def _one(sight: Sight, distance: float, speed: float) -> Arcs:
@@ -69,7 +69,8 @@ def _one(sight: Sight, distance: float, speed: float) -> Arcs:
             high, high_time, found_too = arc(*given, -1.0)
             if found * found_too > 0.0:
                 return Arcs(low, low_time, high, high_time, most if exact else np.inf, False)
-    return Arcs(*(part.item() for part in _nested(np.array([[speed, *sight, distance]]).T)))
+    low, low_time, high, high_time, most, lost = _nested(np.array([[speed, *sight, distance]]).T)[:, 0].tolist()
+    return Arcs(low, low_time, high, high_time, most, lost > 0.0)
 
 
 def _placed(answer: np.ndarray, rows: np.ndarray, limit: Any, which: np.ndarray) -> np.ndarray:

@@ -154,7 +154,9 @@ def sector(slope_c, slope_s):
     return where(slope_s > 0.0, slope_c * slope_c / large, large)
 
 
-def farthest_span(z, theta, share, c, A, B, z_1, f_1, time, far, K, G, W, unit, length, slope_c, slope_s, zenith, curve):
+def farthest_span(
+    z, theta, share, c, A, B, z_1, f_1, time, far, K, G, W, unit, length, slope_c, slope_s, zenith, curve
+):
     """The whole flight."""
     return flight_span(theta, share, c, A, B, K, G, W)
 
@@ -173,25 +175,27 @@ def farthest_improve(
     near = absolute(further) < MIDDLING
     step = within(where(near, -far_z / minimum(slope, 0.3 * like), 0.0), -z, zenith - z)
     onward = within(further + by_z * step, -minimum(theta, LONGEST), LONGEST)
-    open = unsettled(step, further, zenith, share)
+    going = unsettled(step, further, zenith, share)
     there = z + step
-    before = where(absolute(further) < ASIDE * absolute(step), z, there)  # no secant from a flight that ends beside the line
+    before = where(
+        absolute(further) < ASIDE * absolute(step), z, there
+    )  # no secant from a flight that ends beside the line
     row = there, theta + onward, share_of(step, onward, zenith), *launch_sides(there), before, far_z
-    return open, *row, time + t_z * step, far + 0.5 * far_z * step
+    return going, *row, time + t_z * step, far + 0.5 * far_z * step
 
 
 def farthest_finish(
-    open, z, theta, share, c, A, B, z_1, f_1, time, far, K, G, W, unit, length, slope_c, slope_s, zenith, curve
+    going, z, theta, share, c, A, B, z_1, f_1, time, far, K, G, W, unit, length, slope_c, slope_s, zenith, curve
 ):
     """The best angle from the zenith, the range, theta and the time at its end, and whether it was found: 1 or 0."""
-    return z, far, theta, time, 1.0 - open
+    return z, far, theta, time, 1.0 - going
 
 
 farthest = Search(farthest_begin, farthest_span, aimed, farthest_improve, farthest_finish, rounds=24)
 
 
 def arc_guess(zenith, best, most, free, distance, slope_c, slope_s, side):
-    """The angle of an arc and a part of the best path's extra turning, nearly; side is 1 for the low arc, -1 for the high.
+    """The angle of an arc (low where side is 1, high where -1) and its part of the best path's extra turning, nearly.
 
     Without drag R/R_max = (cos(2 z - Z) - cos Z)/(1 - cos Z). With it the sectors beside the best angle are stretched:
     at the line as the range is short of that without drag, and towards the zenith evenly.
@@ -214,7 +218,24 @@ def arc_begin(v0, slope_c, slope_s, k, g, distance, best, most, best_theta, side
     more = log1p(G * expm1(best_theta)) / free_turning(best, slope_c, slope_s) - 1.0
     theta = theta_of_turning(free_turning(z, slope_c, slope_s) * (1.0 + more * share), v0, k, g)
     ends = best, where(side > 0.0, zenith, 0.0)
-    return z, theta, ROUGH + 0.0 * v0, *launch_sides(z), 0.0 * v0, K, G, W, v0 / a, v0 * v0 / a, slope_c, slope_s, distance, most, side, *ends
+    return (
+        z,
+        theta,
+        ROUGH + 0.0 * v0,
+        *launch_sides(z),
+        0.0 * v0,
+        K,
+        G,
+        W,
+        v0 / a,
+        v0 * v0 / a,
+        slope_c,
+        slope_s,
+        distance,
+        most,
+        side,
+        *ends,
+    )
 
 
 def arc_span(z, theta, share, c, A, B, time, K, G, W, unit, length, slope_c, slope_s, distance, most, side, best, edge):
@@ -238,13 +259,15 @@ def arc_improve(
     step = side * within(where(falls, newton, ROOM * ahead), behind, ahead)
     onward = within(further + by_z * step, -minimum(theta, LONGEST), LONGEST)
     there = z + step
-    open = unsettled(step, onward, best, share)
-    return open, there, theta + onward, share_of(step, onward, best), *launch_sides(there), time + t_z * step
+    going = unsettled(step, onward, best, share)
+    return going, there, theta + onward, share_of(step, onward, best), *launch_sides(there), time + t_z * step
 
 
-def arc_finish(open, z, theta, share, c, A, B, time, K, G, W, unit, length, slope_c, slope_s, distance, most, side, best, edge):
+def arc_finish(
+    going, z, theta, share, c, A, B, time, K, G, W, unit, length, slope_c, slope_s, distance, most, side, best, edge
+):
     """The angle from the zenith, the time to the place, and whether they were found: 1 or 0."""
-    return z, time, 1.0 - open
+    return z, time, 1.0 - going
 
 
 arc = Search(arc_begin, arc_span, aimed, arc_improve, arc_finish, rounds=24)

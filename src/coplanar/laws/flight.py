@@ -12,10 +12,10 @@ With A = 1 + sin psi0 and B = 1 - sin psi0,
     N = (u0/u)^2 = 1 + k v0^2 q ((A^2/m + B^2 m)(1 + 1/m)/4 + A B log(m)/(g q)),
     v cos psi = v0 cos psi0 / sqrt N,   v sin psi = v0 (A/m - B m)/2 / sqrt N.
 
-The quadrature runs in theta, with q = expm1(theta)/a, and with v0 and a for units (``scales``). Its only singularities are the zeros of N: the one on the real
-axis, where the speed would have been infinite before the launch, is sent to -infinity or to the line of imaginary part
-pi by the choice of ``pace`` a; the others stay at least pi/2 from the real axis. A Gauss panel of ``PANEL`` and 16
-points then errs by less than 3.2^-32 of the integral.
+The quadrature runs in theta, with q = expm1(theta)/a, and with v0 and a for units (``scales``). Its only singularities
+are the zeros of N: the one on the real axis, where the speed would have been infinite before the launch, is sent to
+-infinity or to the line of imaginary part pi by the choice of ``pace`` a; the others stay at least pi/2 from the real
+axis. A Gauss panel of ``PANEL`` and 16 points then errs by less than 3.2^-32 of the integral.
 
 Sources: de Mestre 1990, The Mathematics of Projectiles in Sport, ch. 3; Parker 1977, Am. J. Phys. 45, 606.
 """

@@ -1,10 +1,10 @@
 """Where a shot comes down on a line: the laws of a search along the hodograph's integral.
 
 In the launch's own frame (origin at (x_0, y_0), x the way it goes, which is to ``side``) the line has the direction
-(slope_c, slope_s), slope_c >= 0, and the launch point stands ``height`` above it along its normal. The search goes up to where the path is
-farthest above the line, and from there down: to where the way left would be fallen at the present acceleration, the
-path turning as it does without drag in a time that drag makes a little longer. That guess is right to second order, and
-what is integrated is only the way from one guess to the next.
+(slope_c, slope_s), slope_c >= 0, and the launch point stands ``height`` above it along its normal. The search goes up
+to where the path is farthest above the line, and from there down: to where the way left would be fallen at the mean
+acceleration to come, the path turning as it does without drag in a time that drag makes a little longer. What is left
+is of the third order of the step, and what is integrated is only the way from one guess to the next.
 
 A row is (theta, upper, t, x, y) and then what stays: (top, end, v0, c, A, B, k, g, a, K, G, W, slope_c, slope_s,
 height, x_0, y_0, side).
@@ -46,7 +46,9 @@ def landing_begin(x_0, y_0, vx, vy, k, g, line_x, line_y, line_c, line_s):
     return *row, top, end, v0, c, A, B, k, g, *scales(v0, k, g), line_c, slope_s, height, x_0, y_0, side
 
 
-def landing_span(theta, upper, t, x, y, top, end, v0, c, A, B, k, g, a, K, G, W, slope_c, slope_s, height, x_0, y_0, side):
+def landing_span(
+    theta, upper, t, x, y, top, end, v0, c, A, B, k, g, a, K, G, W, slope_c, slope_s, height, x_0, y_0, side
+):
     """The rates of travel from one guess to the next."""
     return absolute(upper - theta) / PANEL, theta, upper, A, B, K, G, W
 
@@ -86,8 +88,32 @@ def theta_after(theta, time, v, A, B, g, a, G):
 
 
 def landing_improve(
-    theta, upper, t, x, y, top, end, v0, c, A, B, k, g, a, K, G, W, slope_c, slope_s, height, x_0, y_0, side,
-    more_t, more_x, more_y,
+    theta,
+    upper,
+    t,
+    x,
+    y,
+    top,
+    end,
+    v0,
+    c,
+    A,
+    B,
+    k,
+    g,
+    a,
+    K,
+    G,
+    W,
+    slope_c,
+    slope_s,
+    height,
+    x_0,
+    y_0,
+    side,
+    more_t,
+    more_x,
+    more_y,
 ):
     """The state at the end of the integral, and the next guess; it goes on while that is another step away."""
     unit = v0 / a
@@ -97,11 +123,13 @@ def landing_improve(
     further = theta_after(upper, time * (1.0 + 0.5 * k * v * time), v, A, B, g, a, G)
     ahead = minimum(maximum(further, top), where(upper < top, top, end)) - upper
     step = minimum(maximum(ahead, -PANEL), PANEL)
-    open = where((upper < top) | (absolute(step) > NEAR), 1.0, 0.0)
-    return open, upper, upper + step, t, x, y
+    going = where((upper < top) | (absolute(step) > NEAR), 1.0, 0.0)
+    return going, upper, upper + step, t, x, y
 
 
-def landing_finish(open, theta, upper, t, x, y, top, end, v0, c, A, B, k, g, a, K, G, W, slope_c, slope_s, height, x_0, y_0, side):
+def landing_finish(
+    going, theta, upper, t, x, y, top, end, v0, c, A, B, k, g, a, K, G, W, slope_c, slope_s, height, x_0, y_0, side
+):
     """The parameter, time, place and velocity on the line, or nearest to it, 0 where it is reached, 1 where not."""
     _, vx, vy, above, towards, pull, _ = approach(theta, x, y, v0, c, A, B, k, g, K, G, W, slope_c, slope_s, height)
     none = never(theta, above, towards, top, g)

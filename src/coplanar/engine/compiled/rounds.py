@@ -1,8 +1,9 @@
 """The loops of a search along an integral: a block of rows advances together, and rows that have settled leave.
 
 ``begin``, ``span``, ``rates``, ``improve``, ``finish``, their safe forms and the constants ROW (numbers of a row), WITH
-(and whether it goes on), STATE, SPAN (what a span has), ARGS (of them parameters), and SUMS are names that ``coplanar.engine.compiled.kernels`` supplies; the bodies are templates and never run as they
-stand. A row shows a NaN where a fast primitive does not answer; it is searched for again, safely, from its beginning.
+(and whether it goes on), STATE, SPAN (what a span has), ARGS (of them parameters) and SUMS are names that
+``coplanar.engine.compiled.kernels`` supplies; the bodies are templates and never run as they stand. A row shows a NaN
+where a fast primitive does not answer; it is searched for again, safely, from its beginning.
 
 The columns of the table are the row (ROW), its span (how many panels; middle and half of the present one; the
 parameters), the sums of the present panel (SUMS), the integrals (SUMS), and whether it goes on.
@@ -90,7 +91,8 @@ def integrals(table, place, rows):
         panel(table, NODES[k], WEIGHTS[k], COUNTS[k], left)
         for i in range(left):
             half = get(table, ROW + 2, i)  # noqa: F821
-            put(table, total, place[i], add_terms(some(table, total, place[i], SUMS), half, some(table, first, i, SUMS)))  # noqa: F821
+            so_far = some(table, total, place[i], SUMS)  # noqa: F821
+            put(table, total, place[i], add_terms(so_far, half, some(table, first, i, SUMS)))  # noqa: F821
         done += 1.0
 
 
@@ -206,5 +208,6 @@ def rounds_parallel(ins, steps, outs, rows, most):
 
 
 PARTS = (
-    rule_for, spans, panel, integrals, judge, leave, row_integrals, row_after, rounds_one, search_row, again, rounds_block,
+    rule_for, spans, panel, integrals, judge, leave, row_integrals, row_after, rounds_one, search_row, again,
+    rounds_block,
 )  # fmt: skip
