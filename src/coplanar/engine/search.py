@@ -153,11 +153,11 @@ class Search:
     @functools.cached_property
     def sizes(self) -> dict[str, int]:
         """How many numbers a row, its state, the integrand's parameters, the integrals and the answer have."""
-        floats = {name: law.on_floats for name, law in self._laws.items()}
+        laws = self._laws
         given = {name: law.law.__code__.co_argcount for name, law in self._laws.items()}
-        out = len(floats["finish"](*(0.5,) * given["finish"]))
+        out = len(laws["finish"](*(0.5,) * given["finish"]))
         integrals = given["improve"] - given["span"]
-        state = len(floats["improve"](*(0.5,) * given["improve"])) - 1
+        state = len(laws["improve"](*(0.5,) * given["improve"])) - 1
         return {"ROW": given["span"], "STATE": state, "ARGS": given["rates"] - 1, "SUMS": integrals, "OUT": out}
 
 

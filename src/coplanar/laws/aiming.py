@@ -27,8 +27,10 @@ from coplanar.laws.flight import PANEL, hodograph, lean, scales, sides, theta_of
 
 ROUGH, FAIR = 0.12, 0.3  # shares of a panel's nodes: the flight to about 1e-5 and 1e-8
 MIDDLING, SMALL = 0.03, 1e-3  # steps after which these are too few
-FINE = 1e-6  # last step of an angle over its sector, and of theta; what is left is its square
+FINE = 1e-6  # last step of an angle, over the way to the end of its sector, and of theta; what is left is its square
 ASIDE = 0.1  # of a step, by which a flight may end beside the line to count for the next secant
+SHARP = 10.0  # times as fine: the range at the best angle comes from a secant as rough as this step
+ASTRAY = 1e-9  # part of the distance by which a step may miss; it misses by about 1e-14
 ROOM = 0.1  # part of the way to the end of its sector that a step of an angle leaves
 LONGEST = 1.0  # longest step in theta
 TINIEST = 1e-300  # in quotients that may be 0/0 where nothing is left to do
@@ -124,15 +126,15 @@ def within(step, lower, upper):
     return minimum(maximum(step, (1.0 - ROOM) * lower), (1.0 - ROOM) * upper)
 
 
-def share_of(step, onward, zenith):
-    """The share of a panel's nodes that the next integral is worth after these steps."""
-    size = absolute(step) / zenith + absolute(onward)
+def share_of(turn, onward):
+    """The share of a panel's nodes that the next integral is worth after these steps, each over its scale."""
+    size = absolute(turn) + absolute(onward)
     return where(size < SMALL, 1.0, where(size < MIDDLING, FAIR, ROUGH))
 
 
-def unsettled(step, onward, zenith, share):
-    """Whether a search on angle and theta goes on after these steps: 1 or 0."""
-    return where((absolute(step) > FINE * zenith) | (absolute(onward) > FINE) | (share < 1.0), 1.0, 0.0)
+def unsettled(turn, onward, share):
+    """Whether a search on angle and theta goes on after these steps, each over its scale: 1 or 0."""
+    return where((absolute(turn) > FINE) | (absolute(onward) > FINE) | (share < 1.0), 1.0, 0.0)
 
 
 def farthest_begin(v0, slope_c, slope_s, k, g):
@@ -175,12 +177,13 @@ def farthest_improve(
     near = absolute(further) < MIDDLING
     step = within(where(near, -far_z / minimum(slope, 0.3 * like), 0.0), -z, zenith - z)
     onward = within(further + by_z * step, -minimum(theta, LONGEST), LONGEST)
-    going = unsettled(step, further, zenith, share)
+    short = minimum(theta, 1.0)
+    going = unsettled(SHARP * step / zenith, further / short, share)
     there = z + step
     before = where(
         absolute(further) < ASIDE * absolute(step), z, there
     )  # no secant from a flight that ends beside the line
-    row = there, theta + onward, share_of(step, onward, zenith), *launch_sides(there), before, far_z
+    row = there, theta + onward, share_of(step / zenith, onward / short), *launch_sides(there), before, far_z
     return going, *row, time + t_z * step, far + 0.5 * far_z * step
 
 
@@ -259,8 +262,10 @@ def arc_improve(
     step = side * within(where(falls, newton, ROOM * ahead), behind, ahead)
     onward = within(further + by_z * step, -minimum(theta, LONGEST), LONGEST)
     there = z + step
-    going = unsettled(step, onward, best, share)
-    return going, there, theta + onward, share_of(step, onward, best), *launch_sides(there), time + t_z * step
+    turn, part = step / ahead, onward / minimum(theta, 1.0)
+    row = there, theta + onward, share_of(turn, part), *launch_sides(there)
+    astray = absolute(far + far_z * step - distance) > ASTRAY * distance
+    return where(astray, 1.0, unsettled(turn, part, share)), *row, time + t_z * step
 
 
 def arc_finish(

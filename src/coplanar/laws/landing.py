@@ -26,7 +26,7 @@ from coplanar.laws.flight import (
 )
 
 LAST = 690.0  # theta without an end: exp of it is still a number
-NEAR = 1e-5  # step in theta after which the rest is coasted, which errs by its third power
+NEAR = 1e-5  # last step in theta, over the way since the top; the rest is coasted, which errs by its third power
 BACK = -0.9  # of exp(theta): the longest step back
 LIGHTER = 0.8  # part of an acceleration that its fall may take off
 SLOWEST = 1e-30  # [m/s] in a quotient, so that nothing left to fall takes no time
@@ -123,7 +123,7 @@ def landing_improve(
     further = theta_after(upper, time * (1.0 + 0.5 * k * v * time), v, A, B, g, a, G)
     ahead = minimum(maximum(further, top), where(upper < top, top, end)) - upper
     step = minimum(maximum(ahead, -PANEL), PANEL)
-    going = where((upper < top) | (absolute(step) > NEAR), 1.0, 0.0)
+    going = where((upper < top) | (absolute(step) > NEAR * minimum(1.0, upper - top)), 1.0, 0.0)
     return going, upper, upper + step, t, x, y
 
 
