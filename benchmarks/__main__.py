@@ -9,6 +9,7 @@ import warnings
 from pathlib import Path
 
 from benchmarks import page
+from benchmarks.features import vector_levels
 from benchmarks.fresh import start_up
 from benchmarks.limits import machine_limits
 from benchmarks.machine import description
@@ -20,7 +21,7 @@ from benchmarks.sizes import cost_against_size
 from benchmarks.ulps import primitive_errors
 from benchmarks.workloads import ALL
 
-PARTS = ("sizes", "startup", "memory", "primitives")
+PARTS = ("sizes", "startup", "memory", "primitives", "vectors")
 NAMES = (*(workload.name for workload in ALL), *PARTS)
 
 
@@ -75,6 +76,9 @@ def _parts(findings: Findings, names: tuple[str, ...] | list[str], effort: Effor
     if "memory" in names:
         findings.memory = peaks(effort)
         _print("\nMemory", page.memory(findings))
+    if "vectors" in names:
+        findings.levels = vector_levels(effort)
+        _print("\nInstruction sets", page.levels(findings))
     if "primitives" in names:
         findings.ulps = primitive_errors(200 if effort.quick else 1000)
         _print("\nWorst errors of the primitives [ulp]", page.ulps(findings))

@@ -84,6 +84,24 @@ def _log(rows: int) -> Callable[[], Any]:
     return lambda: Odometry.from_wheels(data.left, data.right, track=rollouts.TRACK).path(Pose())
 
 
+def _rolls(rows: int) -> Callable[[], Any]:
+    from benchmarks.workloads import rollouts
+    from coplanar import Odometry, Pose
+
+    data = rollouts.commands(rows // rollouts.STEPS)
+    odometry = Odometry.from_velocities(data.v, data.omega, rollouts.DT * np.arange(rollouts.STEPS + 1))
+    return lambda: odometry.end(Pose())
+
+
+def _tracked(keep: str) -> Callable[[int], Callable[[], Any]]:
+    def prepare(rows: int) -> Callable[[], Any]:
+        from benchmarks.workloads import tracking
+
+        return tracking.closed_loop(tracking.robots(rows // tracking.STEPS), keep=keep)
+
+    return prepare
+
+
 def _impacts(rows: int) -> Callable[[], Any]:
     from benchmarks.workloads import shots
 
@@ -97,6 +115,9 @@ CALLS = {
     "segments.end(starts)": (_segments, 1_000_000),
     "arm.forward(q), arm.jacobian(q), 6R": (_kinematics, 1_000_000),
     "Odometry.from_wheels(...).path(start)": (_log, 1_000_000),
+    "odometry.end(start)": (_rolls, 1_000_000),
+    "simulate(...)": (_tracked("all"), 1_000_000),
+    "simulate(..., keep='end')": (_tracked("end"), 1_000_000),
     "launch(...).impact()": (_impacts, 100_000),
 }
 

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
+from benchmarks.features import Level
 from benchmarks.fresh import Start
 from benchmarks.limits import Limits
 from benchmarks.measure import Result, Timing, ratio
@@ -30,6 +31,7 @@ class Findings:
     calls: list[Start] = field(default_factory=list)
     memory: list[Peak] = field(default_factory=list)
     ulps: list[Ulps] = field(default_factory=list)
+    levels: list[Level] = field(default_factory=list)
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
@@ -152,6 +154,16 @@ def memory(findings: Findings) -> list[str]:
     ])  # fmt: skip
 
 
+def levels(findings: Findings) -> list[str]:
+    """Cost of a row by instruction set."""
+    laws = next((list(level.cost) for level in findings.levels if level.cost), [])
+    missing = [""] * (len(laws) - 1)
+    return table(("compiled for", *laws), [
+        [level.name, *([level.problem, *missing] if level.problem else map(duration, level.cost.values()))]
+        for level in findings.levels
+    ])  # fmt: skip
+
+
 def ulps(findings: Findings) -> list[str]:
     """Accuracy of the primitives."""
     head = ("primitive", "arguments", "floats", "NumPy text", "compiled")
@@ -194,6 +206,7 @@ def page(findings: Findings) -> str:
         ("Cost against size", SIZES, sizes(findings), findings.sizes),
         ("Start-up", STARTS, [*starts(findings.imports), *starts(findings.calls)], findings.imports),
         ("Memory", MEMORY, memory(findings), findings.memory),
+        ("Instruction sets", LEVELS, levels(findings), findings.levels),
         ("Accuracy of the primitives", ULPS, ulps(findings), findings.ulps),
     )
     for title, words, body, measured in parts:
@@ -230,5 +243,10 @@ STARTS = "Each in a fresh process. Small batches never wait for a compiler; the 
 MEMORY = (
     "A fresh process for each. Outputs are what the answer holds; the peak is the most that Python and NumPy had on "
     "top of the inputs; resident is how far the process's highest resident size rose."
+)
+LEVELS = (
+    "The same laws compiled for one level of x86-64 after the other, a fresh process each; a row of a block in cache, "
+    "one thread, without the price of the call. That the cost falls with the width of the vectors is what shows that "
+    "the loops are vector code. A machine's own level also schedules for its own units."
 )
 ULPS = "Worst error in units of the last place of the true value, over random arguments."

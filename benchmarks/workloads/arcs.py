@@ -52,7 +52,7 @@ def objects(data: Steps) -> Contender:
     """A pose and a twist that are there; the tick makes the next pose."""
     x, y, theta, dx, dy, dtheta = first(data)
     pose, twist = Pose(x, y, theta), Twist(dx / DT, dy / DT, dtheta / DT)
-    return Contender("coplanar: pose.step(twist.during(dt))", lambda: pose.step(twist.during(DT)), 1)
+    return Contender("coplanar: pose.integrate(twist, dt)", lambda: pose.integrate(twist, DT), 1)
 
 
 def bare_law(data: Steps) -> Contender:
@@ -135,6 +135,14 @@ def batch_law(data: Steps) -> Contender:
     return Contender("coplanar: the law, out=", lambda: law.on_compiled(*data, out=out), len(data.x))
 
 
+def single_law(data: Steps) -> Contender:
+    """The same in single precision."""
+    law, given = evaluator(se2.step), [np.float32(column) for column in data]
+    out = tuple(np.empty(len(data.x), np.float32) for _ in range(3))
+    call = lambda: law.on_compiled(*given, out=out)  # noqa: E731
+    return Contender("coplanar: the law, out=, float32", call, len(data.x), slack=1e-5)
+
+
 def numpy_batch(data: Steps) -> Contender:
     """As an expert writes it: half angle, sinc, in place where it can be."""
 
@@ -189,7 +197,7 @@ ONCE = Workload(
 )  # fmt: skip
 
 BATCH = Workload(
-    "arcs", "10^6 exact arcs", "row", steps, (1_000_000, 100_000), (batch, batch_law),
+    "arcs", "10^6 exact arcs", "row", steps, (1_000_000, 100_000), (batch, batch_law, single_law),
     {"NumPy": numpy_batch, "jaxlie": jaxlie_batch, "robotpy-wpimath": wpilib_batch},
     batch_floor, {1: 4.5, 2: 2.7}, 1e-12, lambda data, count: truth.rows(truth.arc, data, count), (1000, 200),
 )  # fmt: skip

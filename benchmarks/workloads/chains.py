@@ -59,6 +59,13 @@ def objects(data: Postures) -> Contender:
                      len(data.q), read)  # fmt: skip
 
 
+def at_once(data: Postures) -> Contender:
+    """``kinematics``: both in one call."""
+    arm = Arm(LINKS)
+    read = lambda answer: planar(answer[0].as_array(), answer[1])  # noqa: E731
+    return Contender("coplanar: arm.kinematics(q)", lambda: arm.kinematics(data.q), len(data.q), read)
+
+
 def numpy_batch(data: Postures) -> Contender:
     """As an expert writes it: running sums from the tip inwards."""
     links = np.array(LINKS)
@@ -224,7 +231,7 @@ def search_floor(limits: Limits, threads: int, data: Postures) -> float:
 
 
 FORWARD = Workload(
-    "kinematics", "10^5 6R forward and Jacobian", "row", postures, (100_000, 20_000), (objects,),
+    "kinematics", "10^5 6R forward and Jacobian", "row", postures, (100_000, 20_000), (objects, at_once),
     {"NumPy": numpy_batch, "JAX": jax_batch, "pinocchio": pinocchio_loop, "roboticstoolbox-python": rtb_loop},
     kinematics_floor, {1: 50.0, 2: 26.0}, 1e-11, kinematics, (300, 50),
 )  # fmt: skip

@@ -156,6 +156,14 @@ def batch_law(data: Targets) -> Contender:
     return Contender("coplanar: the law, out=, one branch", call, len(data.x), columns)
 
 
+def single_law(data: Targets) -> Contender:
+    """The same in single precision."""
+    law, given = evaluator(arms.two_link_inverse), [np.float32(column) for column in data]
+    out = tuple(np.empty(len(data.x), np.float32) for _ in range(2))
+    call = lambda: law.on_compiled(*given, L1, L2, 1.0, out=out)  # noqa: E731
+    return Contender("coplanar: the law, out=, float32", call, len(data.x), columns, slack=1e-4)
+
+
 def numpy_batch(data: Targets) -> Contender:
     """As an expert writes it, one branch, by the cosine clipped to its range."""
 
@@ -222,7 +230,7 @@ ONCE = Workload(
 )  # fmt: skip
 
 BATCH = Workload(
-    "inverses", "10^6 2R inverses", "row", targets, (1_000_000, 100_000), (batch, batch_law),
+    "inverses", "10^6 2R inverses", "row", targets, (1_000_000, 100_000), (batch, batch_law, single_law),
     {"NumPy": numpy_batch, "JAX": jax_batch, "roboticstoolbox-python": rtb_loop},
     batch_floor, {1: 5.0, 2: 2.7}, 1e-10, both, (1000, 200),
 )  # fmt: skip

@@ -123,6 +123,14 @@ def batch_law(data: Moves) -> Contender:
     return Contender("coplanar: the law, out=", lambda: law.on_compiled(*data, out=out), len(data.x))
 
 
+def single_law(data: Moves) -> Contender:
+    """The same in single precision."""
+    law, given = evaluator(motion.segment), [np.float32(column) for column in data]
+    out = tuple(np.empty(len(data.x), np.float32) for _ in range(3))
+    call = lambda: law.on_compiled(*given, out=out)  # noqa: E731
+    return Contender("coplanar: the law, out=, float32", call, len(data.x), slack=1e-5)
+
+
 def numpy_batch(data: Moves) -> Contender:
     """As an expert writes it: a Gauss rule of 12 nodes, node by node, on blocks that stay in the cache."""
     nodes, weights = np.polynomial.legendre.leggauss(NODES)
@@ -227,7 +235,7 @@ ONCE = Workload(
 )  # fmt: skip
 
 BATCH = Workload(
-    "segments", "10^6 segments to 1e-14", "row", moves, (1_000_000, 100_000), (batch, batch_law),
+    "segments", "10^6 segments to 1e-14", "row", moves, (1_000_000, 100_000), (batch, batch_law, single_law),
     {"NumPy": numpy_batch, "JAX": jax_batch, "SciPy fresnel": fresnel_batch, "pyclothoids": pyclothoids_batch},
     batch_floor, {1: 28.0, 2: 14.0}, 1e-12, lambda data, count: truth.rows(truth.segment, data, count), (300, 50),
 )  # fmt: skip

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -37,13 +38,32 @@ def robots(rows: int) -> Robots:
     return Robots(kp, kd, x, y, theta, reference.position(times), reference.velocity(times))
 
 
-def objects(data: Robots) -> Contender:
-    """``simulate``: every pose, command and error is kept."""
+def closed_loop(data: Robots, **keep: Any) -> Callable[[], Any]:
+    """``simulate`` as it is called."""
     tracker = PointTracker((POINT, 0.0), kp=data.kp, kd=data.kd, feedforward=True)
     reference, start = Circle(1.0).over(DURATION), Pose(data.x, data.y, data.theta)
-    call = lambda: simulate(Unicycle(), tracker, reference, step=STEP, start=start)  # noqa: E731
-    read = lambda run: np.column_stack([run[name][-1] for name in ("x", "y", "theta")])  # noqa: E731
-    return Contender("coplanar: simulate(...), all kept", call, len(data.x) * STEPS, read)
+    return lambda: simulate(Unicycle(), tracker, reference, step=STEP, start=start, **keep)
+
+
+def last(run: Any) -> np.ndarray:
+    """The last poses of a run."""
+    return np.column_stack([run[name][-1] for name in ("x", "y", "theta")])
+
+
+def at_the_end(data: Robots) -> Contender:
+    """The end alone is kept, as the peers have it."""
+    return Contender("coplanar: simulate(..., keep='end')", closed_loop(data, keep="end"), len(data.x) * STEPS, last)
+
+
+def objects(data: Robots) -> Contender:
+    """Every pose, command and error is kept."""
+    return Contender("coplanar: simulate(...), all kept", closed_loop(data), len(data.x) * STEPS, last)
+
+
+def paths(data: Robots) -> Contender:
+    """The poses are kept, not the commands and errors."""
+    call = closed_loop(data, keep=("x", "y", "theta"))
+    return Contender("coplanar: simulate(..., keep=('x', 'y', 'theta'))", call, len(data.x) * STEPS, last)
 
 
 def step(xp: Any, state: Any, row: Any, kp: Any, kd: Any) -> Any:
@@ -121,12 +141,24 @@ def ends(data: Robots, count: int) -> np.ndarray:
 
 
 def floor(limits: Limits, threads: int, data: Any) -> float:
+    """One sincos; the state stays in the nearest cache."""
+    del data
+    return limits.floor(threads, read=0, written=0, sincos=1)
+
+
+def kept_floor(limits: Limits, threads: int, data: Any) -> float:
     """Seven numbers kept of every step; one sincos."""
     del data
     return limits.floor(threads, read=0, written=7, sincos=1)
 
 
-WORKLOAD = Workload(
-    "tracking", "closed-loop point tracking, 1000 robots x 1000 steps", "robot-step", robots, (1000, 100), (objects,),
-    {"NumPy": numpy_batch, "JAX": jax_batch, "NumPy ": teaching}, floor, {1: 3.0, 2: 1.6}, 1e-9, ends, (5, 1),
+END = Workload(
+    "tracking", "closed-loop point tracking, 1000 robots x 1000 steps", "robot-step", robots, (1000, 100),
+    (at_the_end,), {"NumPy": numpy_batch, "JAX": jax_batch, "NumPy ": teaching},
+    floor, {1: 3.0, 2: 1.6}, 1e-9, ends, (5, 1),
+)  # fmt: skip
+
+KEPT = Workload(
+    "tracked", "closed-loop point tracking, every step kept", "robot-step", robots, (1000, 100), (objects, paths),
+    {"NumPy": numpy_batch, "JAX": jax_batch}, kept_floor, {}, 1e-9, ends, (5, 1),
 )  # fmt: skip

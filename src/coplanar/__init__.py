@@ -8,14 +8,17 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from coplanar.version import __version__ as __version__
+
 if TYPE_CHECKING:
     from coplanar.arms import Arm
-    from coplanar.control import PointTracker, PolarController, Unicycle
-    from coplanar.curves import Astroid, Circle, Ellipse, FreeCurve, Lemniscate, Line, Polyline, Spline
+    from coplanar.control import Limits, PointTracker, PolarController, Unicycle
+    from coplanar.curves import Astroid, Circle, Ellipse, FreeCurve, HeldPoint, Lemniscate, Line, Polyline, Spline
     from coplanar.errors import CoplanarError, InvalidInput, NoSolution
     from coplanar.flight import Projectile
     from coplanar.frames import FrameTree, coordinates, from_coordinates
     from coplanar.integrators import integrate_ode
+    from coplanar.logs import read_choreo, read_log, read_path, read_urdf, write_log, write_urdf
     from coplanar.motion import (
         DrivingHistory,
         HolonomicMotion,
@@ -28,24 +31,25 @@ if TYPE_CHECKING:
     )
     from coplanar.run import Run
     from coplanar.se2 import Displacement, Pose, Twist, unwrap_angles, wrap_angle
-    from coplanar.simulate import simulate
+    from coplanar.simulation import Noise, simulate
+    from coplanar.sweeps import sweep
     from coplanar.tracing import trace
     from coplanar.wheels import Icr, RollingWheel, Wheel, WheeledBase, identify_wiring
 
-__version__ = "0.1.0"
-
 _HOMES = {
     "arms": "Arm",
-    "control": "PointTracker PolarController Unicycle",
-    "curves": "Astroid Circle Ellipse FreeCurve Lemniscate Line Polyline Spline",
+    "control": "Limits PointTracker PolarController Unicycle",
+    "curves": "Astroid Circle Ellipse FreeCurve HeldPoint Lemniscate Line Polyline Spline",
     "errors": "CoplanarError InvalidInput NoSolution",
     "flight": "Projectile",
     "frames": "FrameTree coordinates from_coordinates",
     "integrators": "integrate_ode",
+    "logs": "read_choreo read_log read_path read_urdf write_log write_urdf",
     "motion": "DrivingHistory HolonomicMotion Odometry OdometryNoise Program Ramp Segment Trapezoid",
     "run": "Run",
     "se2": "Displacement Pose Twist unwrap_angles wrap_angle",
-    "simulate": "simulate",
+    "simulation": "Noise simulate",
+    "sweeps": "sweep",
     "tracing": "trace",
     "wheels": "Icr RollingWheel Wheel WheeledBase identify_wiring",
 }
@@ -61,12 +65,15 @@ __all__ = [
     "Ellipse",
     "FrameTree",
     "FreeCurve",
+    "HeldPoint",
     "HolonomicMotion",
     "Icr",
     "InvalidInput",
     "Lemniscate",
+    "Limits",
     "Line",
     "NoSolution",
+    "Noise",
     "Odometry",
     "OdometryNoise",
     "PointTracker",
@@ -89,10 +96,17 @@ __all__ = [
     "from_coordinates",
     "identify_wiring",
     "integrate_ode",
+    "read_choreo",
+    "read_log",
+    "read_path",
+    "read_urdf",
     "simulate",
+    "sweep",
     "trace",
     "unwrap_angles",
     "wrap_angle",
+    "write_log",
+    "write_urdf",
 ]
 
 

@@ -19,6 +19,8 @@ from coplanar.errors import InvalidShape, InvalidValue, UnknownName
 Real = Any  # a float, or an array of any library that follows the array API
 ArrayLike = Any
 
+MANY = 1000  # entries from which a test of them all without a table of its own is worth its call
+
 _FLOATS = frozenset((float, np.float64))
 
 
@@ -46,7 +48,7 @@ def real(name: str, value: ArrayLike, *, remedy: str = "") -> Real:
     if is_foreign(value):
         return value
     array = _as_float64(name, value, remedy)
-    if not np.isfinite(array).all():
+    if not _all_finite(array):
         raise InvalidValue(name, value, _where("finite numbers", array, np.isfinite(array)), remedy)
     return float(array) if array.ndim == 0 else array
 
@@ -62,7 +64,7 @@ def positive(name: str, value: ArrayLike, *, remedy: str = "") -> Real:
         0.1
     """
     checked = real(name, value, remedy=remedy)
-    _demand(checked > 0.0, name, value, checked, "greater than 0", remedy)
+    demand(checked > 0.0, name, value, checked, "greater than 0", remedy)
     return checked
 
 
@@ -77,7 +79,7 @@ def not_negative(name: str, value: ArrayLike, *, remedy: str = "") -> Real:
         0.0
     """
     checked = real(name, value, remedy=remedy)
-    _demand(checked >= 0.0, name, value, checked, "0 or more", remedy)
+    demand(checked >= 0.0, name, value, checked, "0 or more", remedy)
     return checked
 
 
@@ -154,13 +156,33 @@ def broadcast(**values: Real) -> tuple[int, ...]:
         >>> broadcast(x=1.0, y=np.zeros(3))
         (3,)
     """
-    if _FLOATS.issuperset(map(type, values.values())):
+    if {*map(type, values.values())} == {float}:
         return ()
     try:
         return np.broadcast_shapes(*(np.shape(v) for v in values.values()))
     except ValueError:
         shapes = ", ".join(str(np.shape(v)) for v in values.values())
         raise InvalidShape(", ".join(values), f"shapes {shapes}", "shapes that broadcast as in NumPy") from None
+
+
+def demand(fine: Any, name: str, value: Any, checked: Real, needed: str, remedy: str = "") -> None:
+    """Refuse a value unless the condition on it holds, entry by entry.
+
+    Args:
+        fine: The condition; not asked of arrays of other libraries, whose numbers may not be there yet.
+        name: What to call the value in the error.
+        value: What was given.
+        checked: What the condition was asked of, of its shape.
+        needed: The condition in words.
+        remedy: What to do when it is refused.
+
+    Raises:
+        InvalidValue: With the first entry that is refused.
+    """
+    if fine is True or is_foreign(checked):
+        return
+    if not np.all(fine):
+        raise InvalidValue(name, value, _where(needed, checked, fine), remedy)
 
 
 def instance(name: str, value: object, kind: type, *, remedy: str = "") -> None:
@@ -196,19 +218,19 @@ def _is_immutable(array: np.ndarray) -> bool:
     return owner is None or isinstance(owner, bytes)
 
 
-def _demand(fine: Any, name: str, value: Any, checked: Real, needed: str, remedy: str) -> None:
-    if fine is True or is_foreign(checked):
-        return
-    if not np.all(fine):
-        raise InvalidValue(name, value, _where(needed, checked, fine), remedy)
-
-
 def _where(needed: str, checked: Real, fine: Any) -> str:
     """What was needed, and for an array the first entry that is not so."""
     if not np.ndim(checked):
         return needed
     index = tuple(int(i) for i in np.argwhere(~fine)[0])
     return f"{needed} (entry {index[0] if len(index) == 1 else index} is {checked[index]})"
+
+
+def _all_finite(array: np.ndarray) -> bool:
+    """Whether every entry is: of many the lowest and the highest, which takes no memory."""
+    if array.size > MANY:
+        return math.isfinite(array.min()) and math.isfinite(array.max())
+    return bool(np.isfinite(array).all())
 
 
 def _as_float64(name: str, value: ArrayLike, remedy: str) -> np.ndarray:

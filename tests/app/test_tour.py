@@ -13,7 +13,9 @@ import pytest
 from typer.testing import CliRunner
 
 from coplanar.cli import app
-from coplanar.tour import DEMOS, run_tour
+from coplanar.scenarios import load, names
+from coplanar.tour import run_tour
+from coplanar.viz.outcomes import scene_of
 
 COLUMNS = {
     "arm-pose/run.csv": ("point,x,y", 3),
@@ -34,6 +36,9 @@ COLUMNS = {
     "aim-time/run.csv": ("vx0,vy0", 1),
     "aim-speed/run.csv": ("angle,range", 2),
 }
+
+
+pytestmark = pytest.mark.xdist_group("tour")  # one worker, so that the tour runs once
 
 
 @pytest.fixture(scope="module")
@@ -68,7 +73,8 @@ def test_tables_have_their_columns_and_rows(toured, name):
 
 def test_every_check_of_the_tour_holds(toured):
     assert {demo.name: demo.passed for demo in toured[1]} == dict.fromkeys((d.name for d in toured[1]), True)
-    assert len(toured[1]) == len(DEMOS) == 16
+    assert [demo.name for demo in toured[1]] == list(names())
+    assert all(demo.ok for demo in toured[1])
 
 
 def test_numbers_survive_the_file(toured, read):
@@ -180,7 +186,7 @@ def test_the_page_is_whole_and_needs_nothing_from_elsewhere(toured):
         else:
             assert (folder / link).is_file(), link
     scenes = re.findall(r'<script type="application/json">(.*?)</script>', text, re.DOTALL)
-    assert len(scenes) == sum(demo.scene is not None for demo in demos) > 10
+    assert len(scenes) == sum(scene_of(demo) is not None for demo in demos) > 10
     for scene in map(json.loads, scenes):
         assert all(len(layer.get(key, scene["times"])) == len(scene["times"])
                    for layer in scene["layers"] if layer["kind"] != "curve"
@@ -195,20 +201,31 @@ def test_the_command_prints_the_table_and_where_the_page_is(tmp_path, monkeypatc
     assert result.stdout.rstrip().endswith("index.html")
 
 
+def test_the_command_answers_programs(tmp_path, monkeypatch, toured):
+    monkeypatch.setattr("coplanar.tour.run_tour", lambda *_, **__: toured[1])
+    result = CliRunner().invoke(app, ["tour", "-o", str(tmp_path), "--json"])
+    document = json.loads(result.stdout)
+    assert (result.exit_code, document["ok"]) == (0, True)
+    assert [row["name"] for row in document["demonstrations"]] == [demo.name for demo in toured[1]]
+    assert all(row["passed"] for row in document["demonstrations"])
+
+
 def test_a_folder_that_is_a_file_is_refused(tmp_path):
     (tmp_path / "file").write_text("")
     result = CliRunner().invoke(app, ["tour", "-o", str(tmp_path / "file")])
     assert result.exit_code == 2
-    assert "needed a folder" in result.stderr
+    assert "needed a folder" in " ".join(result.stderr.split())
 
 
-def test_a_failing_demo_leaves_the_folder_as_it_was(tmp_path):
-    def broken():
+def test_a_failing_demo_leaves_the_folder_as_it_was(tmp_path, monkeypatch):
+    def broken(self, progress=None):
         raise RuntimeError("no")
 
+    first, second = load("arm-pose"), load("shot")
+    monkeypatch.setattr(type(second), "run", broken)
     (tmp_path / "mine.txt").write_text("kept")
     with pytest.raises(RuntimeError):
-        run_tour(tmp_path, makers=(DEMOS[0], broken))
+        run_tour(tmp_path, scenarios=(first, second))
     assert [p.name for p in tmp_path.iterdir()] == ["mine.txt"]
 
 

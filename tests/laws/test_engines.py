@@ -12,7 +12,7 @@ import pytest
 import coplanar.laws
 import tests.laws
 from coplanar.engine import evaluator
-from coplanar.laws import se2
+from coplanar.laws import motion, se2
 from tests.engines import ARRAY_ENGINES, NEEDS_NUMBA, on_engine, on_floats
 
 LAWS = [
@@ -121,6 +121,6 @@ def test_float32_in_float32_out(law):
 
 
 @NEEDS_NUMBA
-@pytest.mark.parametrize("law", [se2.act, se2.log, se2.wrap], ids=lambda law: law.__name__)
+@pytest.mark.parametrize("law", [se2.act, se2.log, se2.step, se2.wrap, motion.segment], ids=lambda law: law.__name__)
 def test_float32_in_float32_out_of_the_compiled_loop(law):
     float32_fits(law, "compiled")

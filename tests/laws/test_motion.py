@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from coplanar import Displacement, Pose
+from coplanar.engine import evaluator, scalars
 from coplanar.integrators import integrate_ode
 from coplanar.laws import motion as laws
 from coplanar.motion import DrivingHistory, Odometry, OdometryNoise, Program, Segment
@@ -336,3 +337,14 @@ def test_covariance_is_that_of_many_noisy_runs():
     expected = Odometry(ticks).covariances(Pose(), noise)[-1]
     scale = np.sqrt(np.outer(np.diag(expected), np.diag(expected)))
     np.testing.assert_allclose(np.cov(ends.T) / scale, expected / scale, atol=0.1)
+
+
+@pytest.mark.parametrize("fraction", [*(below for below, _ in scalars._FEWER), 0.999])
+@pytest.mark.parametrize("share", [-1.0, -0.5, 0.0, 0.5, 1.0])
+def test_fewer_points_for_a_fraction_of_a_panel_lose_nothing(fraction, share):
+    turn = fraction * laws.PANEL_PHASE  # over [-1, 1], from omega and from alpha in these shares
+    omega, alpha = 0.5 * turn * (1.0 - abs(share)), 0.5 * turn * share
+    row = (0.0, 0.0, 0.0, 0.0, omega - alpha, 1.0, alpha, 2.0)
+    few = evaluator(laws.segment).on_floats(*row)
+    sixteen = evaluator(laws.segment).on_text(*(np.array([value]) for value in row))
+    assert max(abs(a - b[0]) for a, b in zip(few, sixteen, strict=True)) <= 2.0 * 1e-15  # of the path, 2 m

@@ -120,3 +120,15 @@ def test_no_steps_leave_the_state(engine, shape):
         assert np.shape(end[k]) == shape
         assert np.all(end[k] == float(k))
         assert not np.may_share_memory(np.asarray(end[k]), initial[k])
+
+
+@ALL
+@pytest.mark.parametrize("shape", [(), (3,), (600,)])
+@pytest.mark.parametrize("keep", [(), (0,), (2,), (0, 2), (0, 1, 2)], ids=str)
+def test_what_is_kept_is_what_all_would_keep(engine, shape, keep):
+    rng = np.random.default_rng(4)
+    initial, inputs = list(rng.uniform(-1.0, 1.0, (3, *shape))), [rng.uniform(-1.0, 1.0, 9) for _ in range(2)]
+    whole = on(engine, drive, initial, inputs, [0.1], "all")
+    some = on(engine, drive, initial, inputs, [0.1], keep)
+    for k, (column, part) in enumerate(zip(whole, some, strict=True)):
+        assert np.array_equal(part, column if k in keep else column[-1])

@@ -9,7 +9,7 @@ import pytest
 
 from coplanar.control import PointTracker, Unicycle
 from coplanar.curves import Astroid, Circle, Ellipse, Lemniscate
-from coplanar.simulate import simulate
+from coplanar.simulation import simulate
 from tests.truth.golden import golden
 
 TRUTH = golden("control")

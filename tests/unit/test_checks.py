@@ -196,3 +196,15 @@ def test_arrays_of_other_libraries_pass_even_while_they_are_traced():
     assert jax.jit(through)(x).tolist() == [1.0, -1.0]
     with pytest.raises(InvalidShape):
         checks.vector("points", jnp.zeros(3), 2)
+
+
+@pytest.mark.parametrize("size", [3, 5000])
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+@pytest.mark.parametrize("place", [0, 1, -1])
+def test_an_entry_that_is_not_finite_is_found_among_many(size, bad, place):
+    values = np.full((size, 2), 1e300)
+    checks.real("x", values)
+    values[place, 1] = bad
+    for given in (values, values[:, 1], values.T):
+        with pytest.raises(InvalidValue, match="finite"):
+            checks.real("x", given)

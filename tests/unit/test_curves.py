@@ -8,8 +8,10 @@ import math
 import numpy as np
 import pytest
 
+from coplanar.arms import Arm
 from coplanar.curves import Astroid, Circle, Curve, Ellipse, FreeCurve, HeldPoint, Lemniscate, Line, Polyline, Spline
 from coplanar.errors import InvalidShape, InvalidValue, UnknownName
+from coplanar.tracing import trace
 
 NAN = math.nan
 
@@ -69,7 +71,7 @@ def test_lemniscate_height_is_its_length_unless_given():
         (lambda: Circle(0.0), "radius = 0.0: needed greater than 0"),
         (lambda: Circle(-1.0), "greater than 0"),
         (lambda: Ellipse(1.0, NAN), "b = nan: needed finite"),
-        (lambda: Astroid([1.0, 2.0]), "needed one number"),
+        (lambda: Ellipse([1.0, 2.0], [1.0, 2.0, 3.0]), "shapes that broadcast"),
         (lambda: Astroid(1.0, center=(0.0, NAN)), "center"),
         (lambda: Astroid(1.0, interval=(1.0, 1.0)), "first < last"),
         (lambda: Line((1, 1), (1, 1)), "HeldPoint"),
@@ -140,3 +142,20 @@ def test_held_point_of_many_robots():
 def test_a_curve_of_ones_own_needs_two_methods():
     with pytest.raises(TypeError):
         Curve()
+
+
+def test_many_circles_at_once_are_each_of_them():
+    radii, centres, tilts = np.array([1.0, 2.0, 0.5]), np.array([(0.0, 0.0), (1.0, -1.0), (3.0, 2.0)]), 0.3
+    many = Ellipse(radii, 2.0 * radii, center=centres, tilt=tilts).over(4.0)
+    t = np.linspace(0.0, 4.0, 5)[:, None]
+    assert many.curve.shape == (3,)
+    for i, (radius, centre) in enumerate(zip(radii, centres, strict=True)):
+        one = Ellipse(radius, 2.0 * radius, center=centre, tilt=tilts).over(4.0)
+        assert one.curve.shape == ()
+        for name in ("position", "velocity", "acceleration"):
+            assert np.allclose(getattr(many, name)(t)[:, i], getattr(one, name)(t[:, 0]), rtol=1e-14, atol=1e-14)
+
+
+def test_an_arm_follows_one_curve_at_a_time():
+    with pytest.raises(InvalidShape, match="one by one"):
+        trace(Arm((1.0, 1.0)), Circle([0.1, 0.2], center=(1.0, 0.5)), 11)

@@ -264,3 +264,31 @@ class Torchlike:
 
 def test_pytorch_is_known_by_its_name():
     assert is_foreign(Torchlike())
+
+
+@NEEDS_NUMBA
+@pytest.mark.parametrize(
+    "shapes",
+    [
+        ((700, 1), (600,), (), (700, 600), (1, 600)),
+        ((2, 1, 3), (300_000, 1), (), (2, 300_000, 3), (1,)),
+        ((300_000, 1), (3,), (3,), (300_000, 1), (300_000, 3)),
+        ((5, 1), (270_000,), (), (5, 1), (270_000,)),
+    ],
+    ids=str,
+)
+def test_large_batches_that_broadcast(shapes):
+    rng = np.random.default_rng(6)
+    args = [rng.uniform(-3.0, 3.0, shape) for shape in shapes]
+    for one, two in zip(act.on_compiled(*args), act.on_text(*args), strict=True):
+        assert np.allclose(one, two, rtol=0.0, atol=1e-14)
+
+
+@NEEDS_NUMBA
+def test_one_number_for_all_rows_is_read_as_one():
+    same = np.broadcast_to(np.float64(0.5), (300, 40))
+    for one, two in zip(
+        act.on_compiled(same, same, same, 0.1, 0.2), act.on_text(same, same, same, 0.1, 0.2), strict=True
+    ):
+        assert one.shape == (300, 40)
+        assert np.allclose(one, two, rtol=0.0, atol=1e-15)

@@ -8,7 +8,7 @@ import numpy as np
 
 from coplanar.control import PointTracker, Stability, Unicycle
 from coplanar.curves import Astroid
-from coplanar.simulate import simulate
+from coplanar.simulation import simulate
 
 THETA, POINT = 0.7, (0.3, 0.2)
 C, S = math.cos(THETA), math.sin(THETA)

@@ -43,3 +43,7 @@ def test_the_top_offers_what_it_says():
 @pytest.mark.parametrize("name", [m.name for m in pkgutil.iter_modules(coplanar.__path__) if m.ispkg])
 def test_every_package_has_a_docstring(name):
     assert (import_module(f"coplanar.{name}").__doc__ or "").strip()
+
+
+def test_no_name_at_the_top_is_a_module_too():
+    assert not {m.name for m in pkgutil.iter_modules(coplanar.__path__)} & set(coplanar.__all__)

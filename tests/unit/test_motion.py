@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
@@ -18,6 +20,7 @@ from coplanar.motion import (
     Trapezoid,
     discretize,
 )
+from tests.engines import NEEDS_NUMBA
 
 LINE = Segment(1.0, 0.0, duration=2.0)
 
@@ -294,3 +297,24 @@ def test_many_robots_drive_one_clock():
     assert exact.shape == rk4.shape == (2, 6)
     np.testing.assert_allclose(rk4.as_array(), exact.as_array(), atol=1e-7)
     np.testing.assert_allclose(history.as_program().poses(start).as_array(), exact.as_array(), atol=1e-12)
+
+
+@NEEDS_NUMBA
+def test_a_long_log_takes_the_memory_of_what_it_answers():
+    odometry = Odometry.from_wheels(*np.full((2, 300_000), 0.01), track=0.4)
+    column = 8 * 300_000
+    for call, columns in ((odometry.path, 3), (odometry.end, 0)):
+        call(Pose())
+        tracemalloc.start()
+        call(Pose())
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        assert peak < (columns + 0.5) * column
+
+
+def test_the_end_of_a_log_is_the_last_of_its_poses():
+    rng = np.random.default_rng(3)
+    for lead, ticks in (((), 5), ((), 30_000), ((4,), 7), ((300,), 90)):
+        odometry = Odometry.from_wheels(*rng.uniform(-0.1, 0.2, (2, *lead, ticks)), track=0.4)
+        start = Pose(*rng.uniform(-1.0, 1.0, (3, *lead)))
+        assert odometry.end(start) == odometry.path(start)[..., -1]

@@ -11,7 +11,7 @@ from coplanar import Pose
 from coplanar.control import PointTracker, Stability, Unicycle
 from coplanar.curves import Astroid, Circle, HeldPoint, Line
 from coplanar.errors import InvalidShape, InvalidValue, NoSolution, UnknownName
-from coplanar.simulate import simulate
+from coplanar.simulation import simulate
 
 
 def test_px_zero_names_the_way_out():

@@ -10,7 +10,7 @@ import pytest
 from coplanar import Pose
 from coplanar.control import Limits, PolarController, Stability, Unicycle
 from coplanar.errors import InvalidValue, UnknownName
-from coplanar.simulate import simulate
+from coplanar.simulation import simulate
 
 
 def arrive(controller, start, *, duration=20.0, **more):

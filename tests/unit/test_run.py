@@ -209,3 +209,18 @@ def test_dataframe(monkeypatch):
 
     monkeypatch.setitem(sys.modules, "pandas", Frames)
     assert small().to_dataframe()["x"] == [0.0, 1.0, 1.0, 3.0]
+
+
+def test_warnings_may_be_worked_out_when_they_are_asked_for():
+    asked = []
+
+    def sentences():
+        asked.append(1)
+        return ["mind the step"]
+
+    run = Run._of({"t": np.zeros(1)}, "table", status=RunStatus.COMPLETE, warnings=sentences, info={})
+    assert not asked
+    assert run.warnings == ("mind the step",)
+    assert run.warnings == run.at(0.0).warnings == ("mind the step",)
+    assert len(asked) == 1
+    assert Run({"t": [0.0]}, warnings=["a"]).warnings == ("a",)

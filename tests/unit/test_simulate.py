@@ -12,7 +12,8 @@ from coplanar.control import METHODS, Limits, PointTracker, Unicycle
 from coplanar.curves import Astroid, Circle, HeldPoint, Lemniscate
 from coplanar.errors import InvalidShape, InvalidValue, UnknownName
 from coplanar.run import RunStatus
-from coplanar.simulate import Noise, simulate
+from coplanar.simulation import Noise, simulate
+from tests.engines import NEEDS_NUMBA
 
 ASTROID = Astroid(1.0).over(10.0)
 
@@ -228,3 +229,74 @@ def test_a_large_batch_in_the_compiled_loop():
     for i in (0, 100, 209):
         alone = simulate(Unicycle(), PointTracker((0.1, 0.0), float(kp[i])), ASTROID, step=0.01, duration=1.0)
         np.testing.assert_allclose(many.robot(i).states, alone.states, atol=1e-12)
+
+
+def test_a_seed_for_each_robot_draws_what_it_would_alone():
+    many = Noise(position=[0.1, 0.2, 0.1], v=0.3, seed=[4, 7, 4]).draw(20, (3,))
+    for k, (size, seed) in enumerate(((0.1, 4), (0.2, 7), (0.1, 4))):
+        np.testing.assert_array_equal(many[..., k], Noise(position=size, v=0.3, seed=seed).draw(20, ()))
+
+
+@pytest.mark.parametrize("seed", [-1, 1.5, [1, -2], "a", True])
+def test_a_seed_that_is_none_is_refused(seed):
+    with pytest.raises(InvalidValue, match="seed"):
+        Noise(seed=seed)
+
+
+def many(**more):
+    tracker = PointTracker((0.1, 0.0), kp=np.array([5.0, 10.0, 20.0]), kd=0.1)
+    return simulate(Unicycle(), tracker, ASTROID, **{"step": 0.02, "start": Pose(0.8, 0.1, 1.0)} | more)
+
+
+@pytest.mark.parametrize("method", ["euler", "exact", "rk4"])
+@pytest.mark.parametrize(
+    "more", [{}, {"limits": Limits(v=3.0), "noise": Noise(position=0.01, seed=3)}], ids=["all", "stepped"]
+)
+def test_what_is_kept_is_the_same_whatever_else_is(method, more):
+    for make in (many, demo):
+        whole = make(method=method, **more)
+        end = make(method=method, keep="end", **more)
+        assert list(end.columns) == list(whole.columns)
+        assert (len(end), end.shape, end.status) == (1, whole.shape, whole.status)
+        for name, column in whole.columns.items():
+            np.testing.assert_array_equal(end[name], column[-1:])
+        some = make(method=method, keep=["ey", "x"], **more)
+        assert list(some.columns) == ["t", "x", "ey"]
+        for name, column in some.columns.items():
+            np.testing.assert_array_equal(column, whole[name])
+        assert end.warnings == some.warnings == whole.warnings
+
+
+@pytest.mark.parametrize("compiled", [False, pytest.param(True, marks=NEEDS_NUMBA)])
+def test_what_is_kept_of_a_run_that_diverges(compiled):
+    kp = np.full(40, 1e200) if compiled else np.array([1e200, 1e250])
+    tracker = PointTracker((0.1, 0.0), kp=kp)
+    runs = [
+        simulate(Unicycle(), tracker, ASTROID, step=0.01, start=Pose(), keep=keep)
+        for keep in ("all", "end", ("theta",))
+    ]
+    assert {run.status for run in runs} == {RunStatus.DIVERGED}
+    whole, end, some = runs
+    assert len(whole) == len(some) < 1001
+    assert end.t[0] == whole.t[-1]
+    np.testing.assert_array_equal(some["theta"], whole["theta"])
+    np.testing.assert_array_equal(end["x"][0], whole["x"][-1])
+
+
+def test_only_columns_that_there_are_can_be_kept():
+    with pytest.raises(UnknownName, match="keep"):
+        many(keep="ende")
+    with pytest.raises(UnknownName, match="keep"):
+        many(keep=["x", "z"])
+
+
+@pytest.mark.parametrize("keep", ["all", "end", ["x"]])
+def test_a_run_is_read_only_and_the_times_given_are_not(keep):
+    times = np.linspace(0.0, 1.0, 20)
+    run = many(t=times, step=None, keep=keep)
+    times[0] = -1.0
+    assert run.t[-1] == 1.0
+    for column in run.columns.values():
+        assert not column.flags.writeable
+        assert column.base is None or not column.base.flags.writeable
+        assert column.base is None or run.robot(0) is not None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
@@ -209,10 +210,15 @@ class PointTracker:
         )
         return (v, omega), (ex, ey), (ex, ey, total_x, total_y)
 
-    def roll(self, state: State, targets: Any, steps: np.ndarray, method: str) -> tuple[np.ndarray, ...]:
-        """The whole closed loop of a unicycle in one go: x, y, theta, v, omega, ex, ey, each (steps + 1, ...)."""
+    def roll(
+        self, state: State, targets: Any, steps: np.ndarray, method: str, kept: Collection[int]
+    ) -> tuple[np.ndarray, ...]:
+        """The whole closed loop of a unicycle in one go: x, y, theta, v, omega, ex, ey.
+
+        Each has shape (steps + 1, ...) where its place is among those kept, else that of the last row.
+        """
         scan, row = _TRACKING[method]
         memory = (0.0,) * 6
         parameters = (self.px, self.py, self.kp, self.kd, self.ki, *row)
-        columns: tuple[np.ndarray, ...] = scan((*state, *memory), (*targets, steps), parameters)[:7]
+        columns: tuple[np.ndarray, ...] = scan((*state, *memory), (*targets, steps), parameters, keep=kept)[:7]
         return columns

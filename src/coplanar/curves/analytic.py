@@ -12,7 +12,7 @@ import numpy as np
 from coplanar import checks
 from coplanar.checks import ArrayLike, Real
 from coplanar.curves.base import Curve, as_interval
-from coplanar.engine import TAU, evaluator
+from coplanar.engine import TAU, components, evaluator
 from coplanar.errors import InvalidShape, InvalidValue
 from coplanar.laws import curves as laws
 from coplanar.laws import se2
@@ -65,8 +65,10 @@ class Line(Curve):
 class Placed(Curve):
     """A curve with a formula about its own centre, put somewhere: R(tilt) P(phi) + centre.
 
+    Sizes, centres and tilts of any leading shape make many curves, which parameters broadcast with.
+
     Attributes:
-        center: Where its middle stands [m].
+        center: Where its middle stands, shape (..., 2) [m].
         tilt: How far it is turned counterclockwise [rad].
         interval: Of phi; all of it, 0 to 2 pi, closes the curve.
     """
@@ -74,15 +76,22 @@ class Placed(Curve):
     laws: ClassVar[Laws]
     sizes: ClassVar[tuple[str, ...]]
     center: ArrayLike = (0.0, 0.0)
-    tilt: float = 0.0
+    tilt: Real = 0.0
     interval: tuple[float, float] = (0.0, TAU)
 
     def __post_init__(self) -> None:
         for name in self.sizes:
-            object.__setattr__(self, name, as_number(name, checks.positive(name, getattr(self, name))))
-        object.__setattr__(self, "center", as_point("center", self.center))
-        object.__setattr__(self, "tilt", as_number("tilt", self.tilt))
+            object.__setattr__(self, name, checks.frozen(checks.positive(name, getattr(self, name))))
+        center = checks.vector("center", self.center, 2)
+        object.__setattr__(self, "center", tuple(map(checks.frozen, components(center))))
+        object.__setattr__(self, "tilt", checks.frozen(checks.real("tilt", self.tilt)))
         object.__setattr__(self, "interval", as_interval(self.interval))
+        checks.broadcast(**{name: getattr(self, name) for name in (*self.sizes, "tilt")}, center=self.center[0])
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The leading shape of its sizes, centre and tilt, () for one curve."""
+        return np.broadcast_shapes(*map(np.shape, (*self._sizes(), self.tilt, self.center[0])))
 
     @property
     def closed(self) -> bool:
@@ -95,7 +104,7 @@ class Placed(Curve):
         x, y = _rotate(self.tilt, *own) if order else _act(*self.center, self.tilt, *own)
         return x, y
 
-    def _sizes(self) -> tuple[float, ...]:
+    def _sizes(self) -> tuple[Real, ...]:
         return tuple(getattr(self, name) for name in self.sizes)
 
 
@@ -113,9 +122,9 @@ class Circle(Placed):
 
     laws: ClassVar[Laws] = _ELLIPSE
     sizes: ClassVar[tuple[str, ...]] = ("radius",)
-    radius: float
+    radius: Real
 
-    def _sizes(self) -> tuple[float, ...]:
+    def _sizes(self) -> tuple[Real, ...]:
         return self.radius, self.radius
 
 
@@ -134,8 +143,8 @@ class Ellipse(Placed):
 
     laws: ClassVar[Laws] = _ELLIPSE
     sizes: ClassVar[tuple[str, ...]] = ("a", "b")
-    a: float
-    b: float
+    a: Real
+    b: Real
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,8 +162,8 @@ class Lemniscate(Placed):
 
     laws: ClassVar[Laws] = _LEMNISCATE
     sizes: ClassVar[tuple[str, ...]] = ("a", "b")
-    a: float = 1.0
-    b: float = None  # type: ignore[assignment]
+    a: Real = 1.0
+    b: Real = None
 
     def __post_init__(self) -> None:
         if self.b is None:
@@ -176,7 +185,7 @@ class Astroid(Placed):
 
     laws: ClassVar[Laws] = _ASTROID
     sizes: ClassVar[tuple[str, ...]] = ("a",)
-    a: float = 1.0
+    a: Real = 1.0
 
 
 def as_point(name: str, point: ArrayLike) -> tuple[float, float]:

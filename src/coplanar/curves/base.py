@@ -35,6 +35,11 @@ class Curve(ABC):
     def closed(self) -> bool:
         """Whether the curve ends where, and as, it starts."""
 
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The leading shape of what it is made of, () for one curve."""
+        return ()
+
     @abstractmethod
     def _at(self, parameter: Real, order: int) -> tuple[Real, Real]:
         """The derivative of this order at parameters inside the interval."""

@@ -32,10 +32,11 @@ from coplanar.engine.arrays import (
     turn_remainder,
     where,
 )
-from coplanar.engine.evaluator import Evaluator, can_compile, evaluator
+from coplanar.engine.evaluator import Evaluator, can_compile, evaluator, reproducible
 from coplanar.engine.foreign import components, is_foreign, namespace_of, stack
 from coplanar.engine.scan import Scan
 from coplanar.engine.search import Search
+from coplanar.engine.walk import Walk, running_sum
 
 __all__ = [
     "PI",
@@ -44,6 +45,7 @@ __all__ = [
     "Integral",
     "Scan",
     "Search",
+    "Walk",
     "absolute",
     "asinh",
     "atan",
@@ -67,6 +69,8 @@ __all__ = [
     "minimum",
     "namespace_of",
     "nearest",
+    "reproducible",
+    "running_sum",
     "sin",
     "sinc",
     "sincos",

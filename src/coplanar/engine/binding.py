@@ -6,6 +6,7 @@ constants (kept). Nothing is compiled from text and nothing is rewritten: the la
 
 from __future__ import annotations
 
+import dis
 import types
 from collections.abc import Callable, Mapping
 from types import FunctionType
@@ -18,6 +19,8 @@ PRIMITIVES: frozenset[str] = frozenset(
     for name, value in vars(arrays).items()
     if isinstance(value, FunctionType) and not name.startswith("_") and name not in ("panel_count", "rule")
 )
+
+_OPERATIONS = frozenset(("BINARY_OP", "UNARY_NEGATIVE", "COMPARE_OP"))
 
 
 def bind(
@@ -67,6 +70,25 @@ def _rebound(law: Any, primitives: Mapping[str, Any], wrap: Any, done: dict[Any,
     function = FunctionType(law.__code__, names, law.__name__, law.__defaults__, law.__closure__)
     function.__doc__, function.__qualname__ = law.__doc__, law.__qualname__
     return function
+
+
+def operations(law: Any) -> int:
+    """About how many array operations a call of the law makes, its integrals at every point.
+
+    Example:
+        >>> operations(lambda x, y: 2.0 * x + y)
+        2
+    """
+    count = sum(step.opname in _OPERATIONS for step in dis.get_instructions(law))
+    for name in law.__code__.co_names:
+        value = law.__globals__.get(name)
+        if name in PRIMITIVES:
+            count += 2  # a call, and at least one operation within
+        elif isinstance(value, FunctionType):
+            count += operations(value)
+        elif isinstance(value, arrays.Integral):
+            count += value.points * operations(value.integrand)
+    return count
 
 
 def array_primitives(namespace: types.ModuleType) -> dict[str, Any]:

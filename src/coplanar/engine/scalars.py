@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import functools
 import math
+from bisect import bisect_left
 from math import asinh, atan, atan2, atanh, copysign, cos, cosh, expm1, hypot, log, log1p, sin, sinh, tan, tanh
 from typing import Any
 
 from coplanar.engine.arrays import DSINC_BELOW, PI, SERIES_BELOW, TAU, dsinc_series
-from coplanar.engine.gauss import nodes_for, panel_count, rule
+from coplanar.engine.gauss import panel_count, rule
 
 exp = math.exp
 absolute = abs
@@ -67,43 +67,45 @@ def dsinc(x: float) -> float:
     return x * dsinc_series(x * x) if abs(x) < DSINC_BELOW else (cos(x) - sin(x) / x) / x
 
 
-def integral(integrand: Any, points: int) -> Any:
-    """The integral of a law that was bound to these primitives, by Gauss-Legendre panels.
+# What a fraction of a panel can do with, where a whole one takes 16 points: the nearest singularity is further away by
+# that fraction. Each line leaves out less than 1e-16 of the integral of |f|.
+_FEWER = ((0.0125, 7), (0.05, 8), (0.1, 9), (0.2, 10), (0.3, 11), (0.5, 12))
 
-    ``panels`` is a bound on what one panel can take, so a part of a panel needs fewer nodes; half of them are kept,
-    as the bound may speak of one factor of the integrand alone.
-    """
+
+def integral(integrand: Any, points: int) -> Any:
+    """The integral of a law that was bound to these primitives, by Gauss-Legendre panels."""
+    fewer = _FEWER if points == 16 else ()
+    sizes = [fraction for fraction, _ in fewer]
+    rules = [tuple(zip(*rule(n), strict=True)) for n in (*(n for _, n in fewer), points)]
 
     def integrate(panels: float, lower: float, upper: float, *parameters: float) -> tuple[float, ...]:
+        pairs = rules[bisect_left(sizes, panels)]
         count = panel_count(panels)
-        pairs = _pairs(max(points // 2, nodes_for(points, panels / count)))
         half = 0.5 * (upper - lower) / count if panels <= count else math.nan
         total = _panel(integrand, lower + half, half, pairs, parameters)
         for k in range(1, count):
             more = _panel(integrand, lower + (2 * k + 1) * half, half, pairs, parameters)
-            total = [t + m for t, m in zip(total, more, strict=True)]
-        return tuple(total)
+            total = tuple([t + m for t, m in zip(total, more, strict=True)])
+        return total
 
     return integrate
 
 
-@functools.cache
-def _pairs(points: int) -> tuple[tuple[float, float], ...]:
-    """Node and weight, one after the other."""
-    return tuple(zip(*rule(points), strict=True))
-
-
-def _panel(integrand: Any, middle: float, half: float, pairs: Any, parameters: tuple[float, ...]) -> list[float]:
+def _panel(integrand: Any, middle: float, half: float, pairs: Any, parameters: Any) -> tuple[float, ...]:
     """The integrals over one panel about ``middle``."""
-    rows = [integrand(middle + node * half, *parameters) for node, _ in pairs]
-    if len(rows[0]) == 2:  # the pair (x, y), without the general case's tuples
-        x = y = 0.0
-        for (a, b), (_, weight) in zip(rows, pairs, strict=True):
-            x += weight * a
-            y += weight * b
-        return [half * x, half * y]
-    weighted = [[weight * f for f in row] for row, (_, weight) in zip(rows, pairs, strict=True)]
-    return [half * column for column in map(sum, zip(*weighted, strict=True))]
+    node, weight = pairs[0]
+    first = integrand(middle + node * half, *parameters)
+    if len(first) == 2:  # a point of the plane, without the general case's lists
+        x, y = weight * first[0], weight * first[1]
+        for node, weight in pairs[1:]:
+            fx, fy = integrand(middle + node * half, *parameters)
+            x += weight * fx
+            y += weight * fy
+        return half * x, half * y
+    sums = [weight * f for f in first]
+    for node, weight in pairs[1:]:
+        sums = [total + weight * f for total, f in zip(sums, integrand(middle + node * half, *parameters), strict=True)]
+    return tuple([half * total for total in sums])
 
 
 __all__ = [

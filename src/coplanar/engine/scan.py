@@ -9,7 +9,7 @@ from __future__ import annotations
 import functools
 import importlib
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ from coplanar.engine.evaluator import FIRST_COMPILED_ROWS, Evaluator, can_compil
 from coplanar.engine.foreign import alike, is_foreign
 
 Columns = Sequence[Any]
+Keep = str | Collection[int]
 
 
 class Scan:
@@ -30,23 +31,29 @@ class Scan:
         [0.0, 10.0, 30.0, 60.0]
         >>> Scan(grow)([0.0], [np.array([1.0, 2.0, 3.0])], [np.array([1.0, 10.0])], keep="end")[0].tolist()
         [6.0, 60.0]
+        >>> def coast(way, speed, push):
+        ...     return way + speed, speed + push
+        >>> [a.tolist() for a in map(np.asarray, Scan(coast)([0.0, 1.0], [np.array([1.0, 1.0])], keep=[0]))]
+        [[0.0, 1.0, 3.0], 3.0]
     """
 
     def __init__(self, law: Callable[..., Any]) -> None:
         self._evaluator: Evaluator = evaluator(law)
         functools.update_wrapper(self, law)
 
-    def __call__(self, initial: Columns, inputs: Columns, parameters: Columns = (), *, keep: str = "all") -> Any:
+    def __call__(self, initial: Columns, inputs: Columns, parameters: Columns = (), *, keep: Keep = "all") -> Any:
         """Carry the state through all steps.
 
         Args:
             initial: The state before the first step: numbers, or arrays that broadcast to the rows' shape.
             inputs: One array per input, shape (steps,) or (steps, *rows).
             parameters: Numbers, or arrays that broadcast to the rows' shape.
-            keep: "all" for the state before the first step and after every step, "end" for the last one only.
+            keep: "all" for the state before the first step and after every step, "end" for the last one only, or the
+                places of the entries of the state that are kept at every step, the others at the end.
 
         Returns:
-            A tuple with one array per entry of the state, shape (steps + 1, *rows) or (*rows).
+            A tuple with one array per entry of the state: shape (steps + 1, *rows) where it is kept at every step, else
+            (*rows), a float for rows of shape ().
         """
         given = (*initial, *inputs, *parameters)
         if any(map(is_foreign, given)):
@@ -61,34 +68,35 @@ class Scan:
             return self.on_compiled(state, tables, constants, rows, keep)
         return self.on_text(state, tables, constants, rows, keep)
 
-    def on_text(self, state: Columns, tables: Columns, constants: Columns, rows: tuple[int, ...], keep: str) -> Any:
+    def on_text(self, state: Columns, tables: Columns, constants: Columns, rows: tuple[int, ...], keep: Keep) -> Any:
         """One call of the law per step: floats for a single row, the NumPy text for more."""
         law = self._evaluator.on_text if rows else self._evaluator
         now = tuple(np.broadcast_to(s, rows).copy() if rows else float(s) for s in state)
         fixed = tuple(constants) if rows else tuple(float(c) for c in constants)
         steps = zip(*(table if rows else table.tolist() for table in tables), strict=True)
-        history = [now]
+        kept = _kept(keep, len(now))
+        histories = [[entry] for entry in now]
         for step in steps:
             now = law(*now, *step, *fixed)
-            if keep == "all":
-                history.append(now)
-        if keep == "all":
-            return tuple(np.array(column) for column in zip(*history, strict=True))
-        return now
+            for k in kept:
+                histories[k].append(now[k])
+        return tuple(np.array(histories[k]) if k in kept else end for k, end in enumerate(now))
 
-    def on_compiled(self, state: Columns, tables: Columns, constants: Columns, rows: tuple[int, ...], keep: str) -> Any:
-        """All steps in one compiled loop."""
+    def on_compiled(
+        self, state: Columns, tables: Columns, constants: Columns, rows: tuple[int, ...], keep: Keep
+    ) -> Any:
+        """All steps in one compiled loop; what is kept at every step lies in one memory."""
         count, width = len(tables[0]), math.prod(rows)
-        whole = tuple(np.empty((count + 1 if keep == "all" else 1) * width) for _ in state)
+        kept = _kept(keep, len(state))
+        histories = iter(np.empty((len(kept), count + 1, *rows)))
+        whole = tuple(next(histories) if k in kept else np.empty(rows) for k in range(len(state)))
         self._evaluator.kernel().scan(
             [_column(s, rows) for s in state], [_table(t, rows) for t in tables],
-            [_column(c, rows) for c in constants], whole, (count, width),
+            [_column(c, rows) for c in constants], tuple(out.reshape(-1) for out in whole), (count, width),
         )  # fmt: skip
-        if keep == "all":
-            return tuple(out.reshape((count + 1, *rows)) for out in whole)
-        return tuple(out.reshape(rows) if rows else float(out[0]) for out in whole)
+        return tuple(out if k in kept or rows else float(out) for k, out in enumerate(whole))
 
-    def _on_foreign(self, initial: Columns, inputs: Columns, parameters: Columns, keep: str) -> Any:
+    def _on_foreign(self, initial: Columns, inputs: Columns, parameters: Columns, keep: Keep) -> Any:
         xp, arrays = alike((*initial, *inputs, *parameters))
         law = self._evaluator.on_namespace(xp)
         first, last = len(initial), len(initial) + len(inputs)
@@ -97,7 +105,15 @@ class Scan:
         now = tuple(xp.broadcast_to(s, rows) for s in state)
         history = _fold(xp, lambda state, step: law(*state, *step, *fixed), now, tables)
         whole = tuple(xp.concatenate([n[None], h], 0) for n, h in zip(now, history, strict=True))
-        return whole if keep == "all" else tuple(h[-1] for h in whole)
+        kept = _kept(keep, len(whole))
+        return tuple(h if k in kept else h[-1] for k, h in enumerate(whole))
+
+
+def _kept(keep: Keep, entries: int) -> Collection[int]:
+    """The places of the entries of the state that are kept at every step."""
+    if isinstance(keep, str):
+        return range(entries) if keep == "all" else ()
+    return keep
 
 
 def _fold(xp: Any, step: Callable[..., Any], state: Any, tables: Sequence[Any]) -> Any:

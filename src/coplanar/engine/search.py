@@ -19,7 +19,7 @@ import numpy as np
 
 from coplanar.engine import gauss
 from coplanar.engine.arrays import Integral
-from coplanar.engine.evaluator import Evaluator, can_compile, evaluator
+from coplanar.engine.evaluator import Evaluator, can_compile, evaluator, warm
 from coplanar.engine.foreign import broadcast_shape
 from coplanar.errors import InvalidShape
 
@@ -75,7 +75,7 @@ class Search:
         """
         most = rounds or self.rounds
         if _FLOAT.issuperset(map(type, inputs)):
-            one = self._loops and self._loops.one
+            one = self._loops.one if warm(self._loops is not None) else None
             return one(inputs, most) if one else self.on_floats(*inputs, rounds=most)
         arrays = [np.asarray(a, np.float64) for a in inputs]
         try:
@@ -87,7 +87,7 @@ class Search:
         if rows == 1:
             answer = self(*(a.item() for a in arrays), rounds=rounds)
             return tuple(np.full(shape, a) for a in answer) if shape else answer
-        if self._loops is not None or (rows >= FIRST_COMPILED_ROWS and can_compile()):
+        if warm(self._loops is not None) or (rows >= FIRST_COMPILED_ROWS and can_compile()):
             return self.on_compiled(arrays, shape, most)
         return self.on_text(arrays, shape, most)
 
@@ -143,7 +143,7 @@ class Search:
     ) -> tuple[np.ndarray, ...]:
         """The laws in one compiled loop over blocks of rows that advance together."""
         if self._loops is None:
-            from coplanar.engine.compiled.kernels import SearchKernel
+            from coplanar.engine.compiled.search import SearchKernel
 
             self._loops = SearchKernel({name: law.law for name, law in self._laws.items()}, self.sizes)
         outputs = tuple(np.empty(shape) for _ in range(self.sizes["OUT"]))

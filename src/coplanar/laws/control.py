@@ -50,8 +50,11 @@ def point_command(theta, px, py, wx, wy):
 
 
 def feedback(e, last, total, rate, kp, kd, ki, h):
-    """w = kp e + kd edot + ki int e + refdot, edot the backward difference over h."""
-    return kp * e + kd * ((e - last) / h) + ki * total + rate
+    """w = kp e + kd edot + ki int e + refdot, edot the backward difference (e - last)/h.
+
+    By 1/h, which a loop over robots takes once a step for all of them.
+    """
+    return kp * e + kd * ((e - last) * (1.0 / h)) + ki * total + rate
 
 
 def track_point(x, y, theta, rx, ry, fx, fy, last_x, last_y, sum_x, sum_y, px, py, kp, kd, ki, h):

@@ -50,6 +50,11 @@ def velocities(v, omega, a, alpha, t):
     return v + a * t, omega + alpha * t
 
 
+def most_turn(omega, alpha, dt):
+    """A bound on the turn: |dt| times the fastest rate, which is at one of the ends."""
+    return maximum(absolute(omega), absolute(omega + alpha * dt)) * absolute(dt)
+
+
 def drift(u, v, omega, a, alpha):
     """(v + a u) (cos - 1, sin)(omega u + alpha u^2/2): what turning adds to the velocity, seen from u = 0.
 
@@ -66,13 +71,11 @@ swept = Integral(drift)
 def segment(x, y, theta, v, omega, a, alpha, dt):
     """Pose p + int_0^dt (v + a s) (cos, sin)(theta + omega s + alpha s^2/2) ds, taken about the middle, s = dt/2 + u.
 
-    What turning adds to the straight way is integrated. No panel turns by more than PANEL_PHASE, as |omega + alpha s|
-    is largest at an end.
+    What turning adds to the straight way is integrated. No panel turns by more than PANEL_PHASE.
     """
     half = 0.5 * dt
     middle_v, middle_omega = velocities(v, omega, a, alpha, half)
-    fastest = maximum(absolute(omega), absolute(omega + alpha * dt))
-    panels = fastest * absolute(dt) / PANEL_PHASE
+    panels = most_turn(omega, alpha, dt) / PANEL_PHASE
     lag, left = swept(panels, -half, half, middle_v, middle_omega, a, alpha)
     dx, dy = rotate(theta + (omega + 0.5 * alpha * half) * half, middle_v * dt + lag, left)
     return x + dx, y + dy, theta + middle_omega * dt
@@ -97,8 +100,7 @@ def segment_jacobian(theta, v, omega, a, alpha, dt):
     """
     half = 0.5 * dt
     middle_v, middle_omega = velocities(v, omega, a, alpha, half)
-    fastest = maximum(absolute(omega), absolute(omega + alpha * dt))
-    panels = fastest * absolute(dt) / PANEL_PHASE
+    panels = most_turn(omega, alpha, dt) / PANEL_PHASE
     c0, s0, c1, s1, c2, s2, c3, s3 = moments(panels, -half, half, middle_v, middle_omega, a, alpha, half)
     middle = theta + (omega + 0.5 * alpha * half) * half
     xv, yv = rotate(middle, c0, s0)

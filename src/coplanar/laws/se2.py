@@ -125,6 +125,11 @@ def over(dx, dy, dtheta, dt):
     return dx / dt, dy / dt, dtheta / dt
 
 
+def integrate(x, y, theta, vx, vy, omega, dt):
+    """T exp(V dt): the pose after a constant twist for dt."""
+    return step(x, y, theta, vx * dt, vy * dt, omega * dt)
+
+
 def screw(x, y, theta, dx, dy, dtheta, fraction):
     """The pose a fraction of the way along the constant twist (dx, dy, dtheta)."""
     return step(x, y, theta, fraction * dx, fraction * dy, fraction * dtheta)

@@ -9,11 +9,11 @@ import numpy as np
 
 from coplanar import checks
 from coplanar.checks import ArrayLike, Real
-from coplanar.engine import evaluator
+from coplanar.engine import evaluator, running_sum
 from coplanar.errors import InvalidShape, InvalidValue
 from coplanar.laws import ramps as laws
 from coplanar.motion.program import held_samples
-from coplanar.motion.sequence import along, pick, piece_at, running_sum
+from coplanar.motion.sequence import along, pick, piece_at
 from coplanar.se2 import Displacement, Pose, Twist
 
 _clamp = evaluator(laws.clamp)

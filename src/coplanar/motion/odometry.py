@@ -2,25 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from coplanar import checks
 from coplanar.checks import ArrayLike, Real
-from coplanar.engine import evaluator
+from coplanar.engine import Walk, evaluator, running_sum
 from coplanar.errors import InvalidShape, InvalidValue
+from coplanar.integrators import METHODS
 from coplanar.laws import motion as laws
 from coplanar.laws import se2
 from coplanar.motion.program import held_samples
-from coplanar.motion.sequence import along, before_last_axis, running_sum
+from coplanar.motion.sequence import along, before_last_axis
 from coplanar.se2 import Displacement, Pose
 from coplanar.se2.triple import matrix_of
 
 _increment_variances = evaluator(laws.increment_variances)
+_rotate = evaluator(se2.rotate)
 _step = evaluator(se2.step)
 _step_jacobian = evaluator(laws.step_jacobian)
+_walk = Walk(se2.step)
 _wheel_increments = evaluator(laws.wheel_increments)
+
+EXACT = "exact"
+PATH_METHODS = (EXACT, *METHODS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +109,7 @@ class Odometry:
         dt = np.diff(times)
         forward, turn = (held_samples(name, value, times.size) for name, value in (("v", v), ("omega", omega)))
         checks.broadcast(v=forward, omega=turn)
-        return cls(Displacement(forward * dt, 0.0, turn * dt))
+        return cls(_measured(forward * dt, turn * dt))
 
     @classmethod
     def from_wheels(cls, left: ArrayLike, right: ArrayLike, *, track: ArrayLike) -> Odometry:
@@ -125,21 +132,38 @@ class Odometry:
         ways["track"] = checks.positive("track", track)
         checks.broadcast(**ways)
         distance, turn = _wheel_increments(*ways.values())
-        return cls(Displacement(distance, 0.0, turn))
+        return cls(_measured(distance, turn))
 
-    def path(self, start: Pose) -> Pose:
+    def path(self, start: Pose, *, method: str = EXACT) -> Pose:
         """The pose before each tick and after the last one, shape (..., n + 1), with no loop over ticks.
 
         Headings are running sums of turns, positions running sums of chords. Headings are never wrapped.
+
+        Args:
+            start: Where it begins.
+            method: "exact" for arcs, or a Runge-Kutta method ("euler", "midpoint", "heun", "rk4") that takes one step
+                along the twist of each tick, to see what it costs.
+
+        Raises:
+            UnknownName: If there is no such method.
 
         Example:
             >>> Odometry(Displacement([1.0, 1.0], 0.0, 0.0)).path(Pose(1.0, 2.0, 0.0)).y.tolist()
             [2.0, 2.0, 2.0]
         """
-        x, y, theta = map(before_last_axis, start.parts)
-        heading = theta + running_sum(self.increments.dtheta)
-        dx, dy, _ = _step(0.0, 0.0, heading[..., :-1], *self.increments.parts)
-        return Pose._of(x + running_sum(dx), y + running_sum(dy), heading)
+        checks.choice("method", method, PATH_METHODS)
+        if method == EXACT:
+            return Pose._of(*_walk(start.parts, self.increments.parts))
+        return walked(self.increments, start, method)[0]
+
+    def end(self, start: Pose) -> Pose:
+        """The pose after the last tick, the last one of ``path``; the others take no memory.
+
+        Example:
+            >>> Odometry(Displacement([1.0, 1.0], 0.0, 0.0)).end(Pose(1.0, 2.0, 0.0))
+            Pose(x=3.0, y=2.0, theta=0.0)
+        """
+        return Pose._of(*_walk(start.parts, self.increments.parts, keep="end"))
 
     def jacobians(self, start: Pose) -> tuple[np.ndarray, np.ndarray]:
         """How the pose after each tick moves with the pose before it, F, and with its increment, G.
@@ -182,14 +206,69 @@ class Odometry:
             >>> P[:, 0, 0].round(12).tolist()
             [0.0, 0.01, 0.02]
         """
-        Q = noise.covariances(self.increments) if isinstance(noise, OdometryNoise) else _covariance("noise", noise)
-        P = np.zeros((3, 3)) if initial is None else _covariance("initial", initial)
-        path, (_, G) = self.path(start), self.jacobians(start)
-        x, y = path.x - path.x[..., :1], path.y - path.y[..., :1]
-        added = carried(lever(-x[..., 1:], -y[..., 1:]) @ G, Q)
-        first = np.broadcast_to(P[..., None, :, :], (*np.broadcast_shapes(P.shape[:-2], added.shape[:-3]), 1, 3, 3))
-        about_start = np.cumsum(np.concatenate((first, np.broadcast_to(added, _like(first, added))), axis=-3), axis=-3)
-        return carried(lever(x, y), about_start)
+        Q = (
+            noise.covariances(self.increments)
+            if isinstance(noise, OdometryNoise)
+            else checked_covariance("noise", noise)
+        )
+        P = np.zeros((3, 3)) if initial is None else checked_covariance("initial", initial)
+        path, _ = walked(self.increments, start)
+        return carried(about(path, start), summed_about(path, start, self.increments, Q, P))
+
+
+def walked(
+    increments: Displacement, start: Pose, method: str = EXACT, before: Sequence[Real | None] = (None, None, None)
+) -> tuple[Pose, tuple[Real, Real, Real]]:
+    """Poses (..., n + 1), and the sums of chords and turns after the last tick, which are ``before`` of more ticks."""
+    sums = [None, None, running_sum(increments.dtheta, before[2])]
+    x, y, theta = map(before_last_axis, start.parts)
+    heading = theta + sums[2]
+    for i, chord in enumerate(_chords(heading[..., :-1], increments, method)):
+        sums[i] = running_sum(chord, before[i])
+    return Pose._of(x + sums[0], y + sums[1], heading), tuple(total[..., -1] for total in sums)
+
+
+def _chords(heading: Real, increments: Displacement, method: str) -> tuple[Real, Real]:
+    """What each tick adds to the position: an arc, or by slopes, sum_i b_i R(theta + c_i dtheta) (dx, dy)."""
+    dx, dy, dtheta = increments.parts
+    if method == EXACT:
+        along_x, along_y, _ = _step(0.0, 0.0, heading, dx, dy, dtheta)
+        return along_x, along_y
+    row = METHODS[method]
+    slopes = [_rotate(heading + c * dtheta, dx, dy) for c in row.c]
+    x, y = (sum(b * slope for b, slope in zip(row.b, axis, strict=True)) for axis in zip(*slopes, strict=True))
+    return x, y
+
+
+def about(path: Pose, start: Pose) -> np.ndarray:
+    """The lever from the start to each pose, shape (..., n + 1, 3, 3)."""
+    return lever(path.x - before_last_axis(start.x), path.y - before_last_axis(start.y))
+
+
+def summed_about(path: Pose, start: Pose, increments: Displacement, Q: np.ndarray, first: np.ndarray) -> np.ndarray:
+    """Covariances of all ticks so far as if each had swung the path about the start, shape (..., n + 1, 3, 3)."""
+    a, b, u, w, _, _ = _step_jacobian(path.theta[..., :-1], *increments.parts)
+    G = matrix_of((a, -b, u), (b, a, w), (0.0, 0.0, 1.0))
+    x, y = path.x[..., 1:] - before_last_axis(start.x), path.y[..., 1:] - before_last_axis(start.y)
+    added = carried(lever(-x, -y) @ G, Q)
+    shape = np.broadcast_shapes(first.shape[:-2], added.shape[:-3])
+    rows = np.concatenate(
+        (
+            np.broadcast_to(first[..., None, :, :], (*shape, 1, 3, 3)),
+            np.broadcast_to(added, (*shape, *added.shape[-3:])),
+        ),
+        axis=-3,
+    )
+    sums: np.ndarray = np.cumsum(rows, axis=-3)
+    return sums
+
+
+def _measured(distance: Real, turn: Real) -> Displacement:
+    """A way straight ahead and a turn, from arrays that nobody else holds: read-only from here, and so not copied."""
+    for part in (distance, turn):
+        if isinstance(part, np.ndarray):
+            part.flags.writeable = False
+    return Displacement(distance, 0.0, turn)
 
 
 def lever(dx: Real, dy: Real) -> np.ndarray:
@@ -208,14 +287,11 @@ def carried(jacobian: np.ndarray, covariance: np.ndarray) -> np.ndarray:
     return product
 
 
-def _covariance(name: str, value: ArrayLike) -> np.ndarray:
+def checked_covariance(name: str, value: ArrayLike) -> np.ndarray:
+    """Symmetric matrices of shape (..., 3, 3)."""
     matrix: np.ndarray = checks.vector(name, value, 3)
     if matrix.ndim < 2 or matrix.shape[-2] != 3:
         raise InvalidShape(name, f"shape {matrix.shape}", "shape (..., 3, 3)")
     if not np.allclose(matrix, matrix.swapaxes(-1, -2), rtol=1e-9, atol=0.0):
         raise InvalidValue(name, value, "symmetric matrices")
     return matrix
-
-
-def _like(first: np.ndarray, added: np.ndarray) -> tuple[int, ...]:
-    return (*first.shape[:-3], *added.shape[-3:])

@@ -10,12 +10,12 @@ import numpy as np
 
 from coplanar import checks
 from coplanar.checks import ArrayLike, Real
-from coplanar.engine import evaluator, stack
+from coplanar.engine import evaluator, running_sum, stack
 from coplanar.errors import InvalidShape, InvalidValue
 from coplanar.laws import motion as laws
 from coplanar.laws import ramps, se2
 from coplanar.motion.segment import Segment
-from coplanar.motion.sequence import along, before_last_axis, joined, pick, piece_at, running_sum
+from coplanar.motion.sequence import along, before_last_axis, joined, pick, piece_at
 from coplanar.se2 import Pose, Twist
 
 _clamp = evaluator(ramps.clamp)

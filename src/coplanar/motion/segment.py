@@ -9,8 +9,7 @@ import numpy as np
 
 from coplanar import checks
 from coplanar.checks import ArrayLike, Real
-from coplanar.engine import evaluator, is_foreign
-from coplanar.errors import InvalidValue
+from coplanar.engine import evaluator
 from coplanar.laws import motion as laws
 from coplanar.se2 import Pose, Twist
 from coplanar.se2.triple import matrix_of
@@ -19,9 +18,11 @@ _curvature = evaluator(laws.curvature)
 _cusp_time = evaluator(laws.cusp_time)
 _segment = evaluator(laws.segment)
 _segment_jacobian = evaluator(laws.segment_jacobian)
+_most_turn = evaluator(laws.most_turn)
 _velocities = evaluator(laws.velocities)
 
 LONGEST_TURN = 1.0e5  # [rad] the work grows with the turn: 200 000 points at this one
+_WITHIN = f"(rate of turn) x duration of at most {LONGEST_TURN:g} rad"
 
 KINDS = ("rest", "line", "spin", "arc", "circle", "clothoid", "general")
 
@@ -65,11 +66,9 @@ class Segment:
         checks.broadcast(**values)
         for name, value in values.items():
             object.__setattr__(self, name, checks.frozen(value))
-        if not any(map(is_foreign, values.values())):
-            fastest = np.maximum(np.abs(self.omega), np.abs(_velocities(*self.parts)[1]))
-            if np.any(fastest * self.duration > LONGEST_TURN):
-                needed = f"(rate of turn) x duration of at most {LONGEST_TURN:g} rad"
-                raise InvalidValue("omega, alpha", (self.omega, self.alpha), needed, "split the segment")
+        turn = _most_turn(self.omega, self.alpha, self.duration)
+        given = self.omega, self.alpha
+        checks.demand(turn <= LONGEST_TURN, "omega, alpha", given, turn, _WITHIN, "split the segment")
 
     @classmethod
     def _of(cls, *parts: Real) -> Segment:

@@ -10,18 +10,6 @@ from coplanar.checks import Real
 from coplanar.engine import is_foreign, namespace_of
 
 
-def running_sum(increments: Any) -> Any:
-    """0, then the sums of the first 1, 2 ... n entries of the last axis: shape (..., n + 1).
-
-    Example:
-        >>> running_sum(np.array([1.0, 2.0])).tolist()
-        [0.0, 1.0, 3.0]
-    """
-    xp = _namespace(increments)
-    sums = xp.cumsum(increments, axis=-1)
-    return xp.concat((xp.zeros_like(sums[..., :1]), sums), axis=-1)
-
-
 def piece_at(knots: Any, t: Any) -> Any:
     """Which piece holds at time t: the last one that has begun, the first one before.
 

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import importlib
 import os
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from enum import Enum
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields
 from fnmatch import fnmatchcase
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -19,51 +18,14 @@ from coplanar.checks import ArrayLike
 from coplanar.engine import stack
 from coplanar.errors import InvalidShape, InvalidValue, MissingExtra, UnknownName
 from coplanar.run.files import read_table, write_table
+from coplanar.run.kinds import KINDS, Kind, RunStatus
+from coplanar.run.showing import Shown
 from coplanar.run.summary import summary_of
 from coplanar.se2 import Pose
 
 
-class RunStatus(Enum):
-    """How a run ended; the value is the sentence."""
-
-    COMPLETE = "ran to its end"
-    DIVERGED = "stopped being finite: the loop diverged"
-
-
-class Kind(NamedTuple):
-    """Which columns of a run are what, by name or pattern (``q*``).
-
-    Attributes:
-        states: What is integrated.
-        commands: What drives it.
-        errors: What is wanted to be 0.
-        angles: Columns in radians, unwrapped before they are interpolated.
-        held: Columns that hold over the interval that ends in their row, and are not interpolated.
-    """
-
-    states: tuple[str, ...] = ()
-    commands: tuple[str, ...] = ()
-    errors: tuple[str, ...] = ()
-    angles: tuple[str, ...] = ()
-    held: tuple[str, ...] = ()
-
-
-_POSE = ("x", "y", "theta")
-KINDS: Mapping[str, Kind] = MappingProxyType(
-    {
-        "table": Kind(angles=("theta",)),
-        "unicycle": Kind(
-            _POSE, ("v", "omega"), ("ex", "ey", "rho", "alpha", "beta"), ("theta", "alpha", "beta"), ("v", "omega")
-        ),
-        "body": Kind(_POSE, ("vx", "vy", "omega"), (), ("theta",)),
-        "arm": Kind(("q[0-9]*",), (), ("ex", "ey"), ("q[0-9]*", "theta")),
-        "flight": Kind(("x", "y", "vx", "vy")),
-    }
-)
-
-
 @dataclass(frozen=True, slots=True, eq=False)
-class Run:
+class Run(Shown):
     """Columns by name over one monotone column, ``t`` unless told otherwise.
 
     A column has shape (rows,), or (rows, ...) for a batch of robots that share the time.
@@ -73,7 +35,7 @@ class Run:
         kind: One of ``KINDS`` (which columns are states, commands, errors, angles), or a ``Kind``.
         index: The monotone column.
         status: How it ended. Only a complete run has to be finite.
-        warnings: Sentences that were known before it ran.
+        warnings: Sentences that were known before it ran; those of a simulation are worked out when they are asked for.
         info: Whatever else belongs to it: method, gains, seed.
 
     Raises:
@@ -109,6 +71,22 @@ class Run:
         object.__setattr__(self, "columns", MappingProxyType(table))
         object.__setattr__(self, "info", MappingProxyType(dict(self.info)))
         object.__setattr__(self, "warnings", tuple(self.warnings))
+
+    @classmethod
+    def _of(
+        cls, columns: Mapping[str, np.ndarray], kind: str, *, status: RunStatus,
+        warnings: Callable[[], tuple[str, ...]], info: Mapping[str, Any],
+    ) -> Run:  # fmt: skip
+        """The run without the checks, for results of laws, which become read-only."""
+        for column in columns.values():
+            for array in (column, column.base):
+                if isinstance(array, np.ndarray):
+                    array.flags.writeable = False
+        new = object.__new__(cls)
+        values = (MappingProxyType(columns), kind, "t", status, warnings, MappingProxyType(info))
+        for each, value in zip(fields(cls), values, strict=True):
+            object.__setattr__(new, each.name, value)
+        return new
 
     def _checked(self, name: str, values: ArrayLike) -> np.ndarray:
         if not isinstance(name, str) or not name or set(name) & set(',"\n\r'):
@@ -296,3 +274,25 @@ def _unwound(angles: np.ndarray) -> np.ndarray:
     """Angles without jumps of a turn, if they stay within one turn; those that already wind are left alone."""
     wound = np.ptp(angles, axis=0) > 2.0 * np.pi * (1.0 + 1e-12)
     return np.where(wound, angles, np.unwrap(angles, axis=0))
+
+
+class _WhenAsked:
+    """A field that may be given as a call, which is made when the field is first read."""
+
+    def __init__(self, slot: Any) -> None:
+        self._slot = slot
+
+    def __get__(self, run: Run | None, kind: type | None = None) -> Any:
+        if run is None:
+            return self
+        value = self._slot.__get__(run, kind)
+        if callable(value):
+            value = tuple(value())
+            self._slot.__set__(run, value)
+        return value
+
+    def __set__(self, run: Run, value: Any) -> None:
+        self._slot.__set__(run, value)
+
+
+setattr(Run, "warnings", _WhenAsked(vars(Run)["warnings"]))  # noqa: B010 (to a type checker it stays the field that it is)

@@ -21,15 +21,11 @@ _adjoint = evaluator(laws.adjoint)
 _between = evaluator(laws.between)
 _compose = evaluator(laws.compose)
 _exp = evaluator(laws.exp)
-_inverse = evaluator(laws.act_inverse)
-_adjoint = evaluator(laws.adjoint)
-_between = evaluator(laws.between)
-_compose = evaluator(laws.compose)
-_exp = evaluator(laws.exp)
 _exp_jacobian = evaluator(laws.exp_jacobian)
 _heading = evaluator(laws.heading)
 _inverse = evaluator(laws.inverse)
 _lerp = evaluator(laws.lerp)
+_integrate = evaluator(laws.integrate)
 _log = evaluator(laws.log)
 _rotate = evaluator(laws.rotate)
 _screw = evaluator(laws.screw)
@@ -194,6 +190,17 @@ class Pose(Triple):
         """
         checks.instance("increment", increment, Displacement, remedy=_A_RATE)
         return Pose._of(*_step(self.x, self.y, self.theta, increment.dx, increment.dy, increment.dtheta))
+
+    def integrate(self, twist: Twist, duration: ArrayLike) -> Pose:
+        """T exp(V dt): the pose after a constant twist for ``duration`` [s]; one step of odometry.
+
+        Example:
+            >>> Pose(1.0, 0.0, 0.0).integrate(Twist(2.0, 0.0, 0.0), 0.5)
+            Pose(x=2.0, y=0.0, theta=0.0)
+        """
+        checks.instance("twist", twist, Twist)
+        dt = checks.real("duration", duration)
+        return Pose._of(*_integrate(self.x, self.y, self.theta, twist.vx, twist.vy, twist.omega, dt))
 
     def transform(self, twist: Twist) -> Twist:
         """Ad_T xi: the twist of the rigid body, seen from frame a instead of frame b.

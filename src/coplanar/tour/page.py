@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from string import Template
 
-from coplanar.tour.demo import Demo
+from coplanar.scenarios import Outcome
+from coplanar.viz.outcomes import scene_of
 from coplanar.viz.scene import player_source
 
 _HERE = Path(__file__).parent
@@ -26,7 +27,7 @@ _PLAYER = """
 </div>"""
 
 
-def page(demos: Sequence[Demo]) -> str:
+def page(demos: Sequence[Outcome]) -> str:
     """The page's HTML.
 
     Args:
@@ -44,15 +45,16 @@ def page(demos: Sequence[Demo]) -> str:
     )
 
 
-def _row(demo: Demo) -> str:
+def _row(demo: Outcome) -> str:
     mark = '<td class="holds">holds</td>' if demo.passed else '<td class="fails">fails</td>'
     cells = "".join(f"<td>{html.escape(text)}</td>" for text in (demo.title, demo.headline, demo.check))
     return f'<tr><th scope="row"><a href="#{demo.name}">{demo.name}</a></th>{cells}{mark}</tr>'
 
 
-def _card(demo: Demo) -> str:
+def _card(demo: Outcome) -> str:
     label = html.escape(demo.title, quote=True)
-    scene = "" if demo.scene is None else _PLAYER.format(label=label, scene=demo.scene.as_json())
+    moving = scene_of(demo)
+    scene = "" if moving is None else _PLAYER.format(label=label, scene=moving.as_json())
     files = " &middot; ".join(f'<a href="{demo.name}/{file}">{file}</a>' for file in demo.tables)
     return f"""
 <article id="{demo.name}" class="{"wide" if scene else ""}">

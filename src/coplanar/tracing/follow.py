@@ -58,6 +58,8 @@ def trace(
     """
     phi = curve.parameters(parameters) if isinstance(parameters, int) else checks.monotone("parameters", parameters)
     checks.choice("at_singular", at_singular, AT_SINGULAR)
+    if curve.shape:
+        raise InvalidShape("curve", f"shape {curve.shape}", "one curve", "trace them one by one")
     if between < 1:
         raise InvalidValue("between", between, "1 or more")
     start = None if near is None else _start(arm, near)

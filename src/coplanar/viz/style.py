@@ -1,7 +1,7 @@
 """One palette for everything that is drawn: figures, animations, pages; light and dark.
 
-The series colours stay apart for the colour-blind (they differ in lightness as well as in hue) and keep a contrast of
-at least 3 : 1 against their surface.
+The series colours keep a contrast of at least 3 : 1 against their surface and a CIEDE2000 distance of at least 12 from
+one another, for normal sight and without the long, the middle or the short cones.  [Machado 2009; CIE 142:2001]
 """
 
 from __future__ import annotations
@@ -12,6 +12,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from coplanar import checks
+
+ORDER = ("first", "second", "third", "fourth", "fifth", "sixth")
+ROLES = {
+    "link": "first", "body": "first", "trail": "second", "target": "fourth", "reference": "sixth",
+    "good": "third", "warn": "second", "no": "fourth",
+}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,12 +38,28 @@ class Theme:
     grid: str
     series: tuple[str, ...]
 
+    def colour(self, name: Any) -> Any:
+        """The colour of a role ("trail"), of a place ("first", "C0"), of a field ("ink"); others are Matplotlib's.
+
+        Example:
+            >>> LIGHT.colour("trail") == LIGHT.colour("second") == LIGHT.colour("C1") == LIGHT.series[1]
+            True
+        """
+        if not isinstance(name, str):
+            return name
+        if name in ("surface", "ink", "muted", "grid"):
+            return getattr(self, name)
+        place = ROLES.get(name, name)
+        if place in ORDER:
+            return self.series[ORDER.index(place)]
+        return self.series[int(name[1:]) % len(self.series)] if name[:1] == "C" and name[1:].isdigit() else name
+
 
 LIGHT = Theme(
-    "#ffffff", "#1c2430", "#5b6675", "#e3e7ed", ("#1f5fc4", "#c4520a", "#0b7a62", "#a1306f", "#7a5a00", "#4d5a6b")
+    "#ffffff", "#1c2430", "#5b6675", "#e3e7ed", ("#075cdd", "#cf5b11", "#077960", "#a93782", "#684b00", "#424a54")
 )
 DARK = Theme(
-    "#12171f", "#e6ebf2", "#97a3b3", "#2a323e", ("#6fa8ff", "#ff9a57", "#3fcfae", "#f07fbd", "#e0bd4a", "#a9b6c8")
+    "#12171f", "#e6ebf2", "#97a3b3", "#2a323e", ("#6ea6fe", "#ee9e67", "#45e0bb", "#e3599c", "#fed42f", "#aabacf")
 )
 THEMES = {"light": LIGHT, "dark": DARK}
 
@@ -53,6 +75,23 @@ def theme_named(name: str) -> Theme:
         '#ffffff'
     """
     return THEMES[checks.choice("theme", name, THEMES)]
+
+
+def theme_set() -> Theme:
+    """The theme whose colours Matplotlib's settings carry, as within ``drawn_in``; otherwise the light one."""
+    import matplotlib as mpl
+
+    colours = tuple(mpl.rcParams["axes.prop_cycle"].by_key().get("color", ()))
+    return next((theme for theme in THEMES.values() if theme.series == colours), LIGHT)
+
+
+def theme_on(ax: Any) -> Theme:
+    """The theme that can be read on these axes: dark where they are darker than a middle grey."""
+    from matplotlib.colors import to_rgba
+
+    own, behind = to_rgba(ax.get_facecolor()), to_rgba(ax.figure.figure.get_facecolor())
+    seen = [own[3] * a + (1.0 - own[3]) * (behind[3] * b + 1.0 - behind[3]) for a, b in zip(own, behind, strict=True)]
+    return DARK if 0.2126 * seen[0] + 0.7152 * seen[1] + 0.0722 * seen[2] < 0.5 else LIGHT
 
 
 def rc_params(theme: Theme) -> dict[Any, Any]:

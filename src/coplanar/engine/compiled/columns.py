@@ -54,6 +54,24 @@ def gather(typing, columns, steps, start, i):
     return answer(columns, steps, types.intp, types.intp), generate
 
 
+@intrinsic
+def reach(typing, columns, strides, paces, row, begin, i):
+    """Entry ``row * stride + begin * pace + i`` of the columns, each with its own stride and pace, as a tuple."""
+    answer = types.Tuple([column.dtype for column in columns])
+
+    def generate(context, builder, signature, arguments):
+        table, by_row, by_step, which, first, index = arguments
+        places = []
+        for k in range(len(columns)):
+            base = builder.mul(which, builder.extract_value(by_row, k))
+            base = builder.add(base, builder.mul(first, builder.extract_value(by_step, k)))
+            places.append(builder.add(base, index))
+        values = _read(context, builder, signature.args[0], table, places)
+        return context.make_tuple(builder, signature.return_type, values)
+
+    return answer(columns, strides, paces, types.intp, types.intp, types.intp), generate
+
+
 @intrinsic(prefer_literal=True)
 def merge(typing, shared, own, pattern):
     """One tuple out of two: bit k of the pattern says that entry k comes from ``own``."""
@@ -105,6 +123,37 @@ def sum_of(typing, columns, start, i):
         return total
 
     return columns[0].dtype(columns, types.intp, types.intp), generate
+
+
+@intrinsic
+def total_of(typing, row):
+    """Sum of a law's answer, a number or a tuple: NaN if an entry is NaN (or infinities cancel)."""
+    many = isinstance(row, types.BaseTuple)
+
+    def generate(context, builder, signature, arguments):
+        (given,) = arguments
+        total = builder.extract_value(given, 0) if many else given
+        for k in range(1, len(row) if many else 1):
+            total = builder.fadd(total, builder.extract_value(given, k))
+        return total
+
+    return (row[0] if many else row)(row), generate
+
+
+@intrinsic(prefer_literal=True)
+def spill(typing, outs, table, start, rows, pattern):
+    """Copy the first rows of a table's columns to ``start`` in the outputs; bit k of the pattern asks for column k."""
+    chosen = [k for k in range(len(outs)) if pattern.literal_value >> k & 1]
+
+    def generate(context, builder, signature, arguments):
+        columns, values, place, count, _ = arguments
+        for k in chosen:
+            target = _pointer(context, builder, signature.args[0][k], builder.extract_value(columns, k), place)
+            source = _entry(context, builder, (values, place.type(k), place.type(0)), signature.args[1], 0)
+            cgutils.raw_memcpy(builder, target, source, count, 8)
+        return context.get_dummy_value()
+
+    return types.void(outs, table, types.intp, types.intp, pattern), generate
 
 
 @intrinsic

@@ -13,16 +13,21 @@ from numba import njit
 
 from coplanar.engine.arrays import Integral
 from coplanar.engine.binding import bind
-from coplanar.engine.compiled import loops, rounds, scans
+from coplanar.engine.compiled import loops, scans, walks
 from coplanar.engine.compiled.cache import in_folder
+from coplanar.engine.compiled.columns import WIDTH
 from coplanar.engine.compiled.doubt import shows_every_nan
 from coplanar.engine.compiled.elementary import FLAGS, inline
-from coplanar.engine.compiled.primitives import FAST, SAFE
+from coplanar.engine.compiled.primitives import FAST, SAFE, SINGLE
+from coplanar.engine.compiled.single import in_single
 
+VECTOR = 8  # numbers in the widest vectors
+SPREAD_ROWS = 1 << 18  # rows that are laid out at a time where an array does not lie as the loop reads it
 PARALLEL_FROM = 200_000  # rows; below, starting threads costs more than they save
 
 _fast_laws: dict = {}
 _safe_laws: dict = {}
+_single_laws: dict = {}
 _threads = threading.Lock()
 _process = os.getpid()
 
@@ -40,7 +45,7 @@ class Loops:
 
     def loop(self, kind, arguments, work, rows, constants=()):
         """Threads where they pay and are free; a forked child never touches the parent's threads."""
-        threads_pay = work >= PARALLEL_FROM and rows >= 2 * scans.BLOCK and os.getpid() == _process
+        threads_pay = work >= PARALLEL_FROM and rows >= 2 * WIDTH and os.getpid() == _process
         if threads_pay and _threads.acquire(blocking=False):
             try:
                 self._call(kind, f"{kind}_parallel", constants, arguments)
@@ -58,52 +63,56 @@ class Loops:
             self._loops[loop, constants](*arguments)
 
     def _compiled(self, kind, loop, constants):
-        with self._lock:
-            if (loop, constants) not in self._loops:
-                self._loops[loop, constants] = self._compile(kind, loop, constants)
-            return self._loops[loop, constants]
+        if (loop, constants) not in self._loops:
+            with self._lock:
+                if (loop, constants) not in self._loops:
+                    self._loops[loop, constants] = self._compile(kind, loop, constants)
+        return self._loops[loop, constants]
 
     def _compile(self, kind, loop, constants, *, cached=True):
         """A loop over these laws; the loops of a kind share their parts."""
-        label = _label(self._laws, constants)
+        label, texts = _label(self._laws, constants), self._texts[kind]
         if (kind, constants) not in self._parts:
-            self._parts[kind, constants] = _parts(self._laws, self._texts[kind], label, dict(constants))
+            self._parts[kind, constants] = _parts(self._laws, texts, label, dict(constants))
         with in_folder() as writeable:
             return njit(
-                _template(getattr(self._texts[kind], loop), label, self._parts[kind, constants]),
-                fastmath=FLAGS, error_model="numpy", nogil=True,
-                cache=cached and writeable, parallel=loop.endswith("parallel"),
+                _template(getattr(texts, loop), label, self._parts[kind, constants]), fastmath=FLAGS,
+                error_model="numpy", nogil=True, cache=cached and writeable, parallel=loop.endswith("parallel"),
             )  # fmt: skip
 
     def fill(self, kind, inputs, columns, shape, *, more=(), work=1, constants=()):
-        """Run a loop over rows of inputs that broadcast to the shape of the flat output columns.
+        """Run a loop over the rows of inputs that broadcast to the shape of the flat output columns.
 
-        Inputs that have to be spread first are, a part at a time.
+        Inputs that do not lie as the loop reads them are laid out, a part at a time.
         """
         rows = math.prod(shape)
         ready = [_column(a, shape, rows) for a in inputs]
-        if all(column is not None for column, _ in ready):
-            ins, steps = zip(*ready, strict=True)
+        ins, steps = zip(*ready, strict=True)
+        if None not in steps:
             self.loop(kind, (ins, steps, columns, rows, *more), work * rows, rows, constants)
             return
-        whole = [np.broadcast_to(a, shape).flat for a in inputs]
-        steps = tuple(step for _, step in ready)
-        span = 16 * loops.BLOCK
-        for start in range(0, rows, span):
-            stop = min(start + span, rows)
+        steps = tuple(1 if step is None else step for step in steps)
+        whole = [np.broadcast_to(a, shape) for a in inputs]
+        room = [None if column is not None else np.empty(min(rows, SPREAD_ROWS), a.dtype.newbyteorder("="))
+                for (column, _), a in zip(ready, inputs, strict=True)]  # fmt: skip
+        start = 0
+        for index in _slabs(shape, SPREAD_ROWS):
+            count = whole[0][index].size
+            stop = start + count
             ins = tuple(
-                _read_only(flat[start:stop]) if column is None else column[start:stop] if step else column
-                for (column, step), flat in zip(ready, whole, strict=True)
+                _laid_out(array[index], space) if column is None else column[start:stop] if step else column
+                for (column, step), array, space in zip(ready, whole, room, strict=True)
             )
             outs = tuple(c[start:stop] for c in columns)
-            self.loop(kind, (ins, steps, outs, stop - start, *more), work * (stop - start), stop - start, constants)
+            self.loop(kind, (ins, steps, outs, count, *more), work * count, count, constants)
+            start = stop
 
 
 class Kernel(Loops):
-    """A law inside compiled loops: ``run`` over rows, ``scan`` over steps of rows."""
+    """A law inside compiled loops: ``run`` over rows, ``scan`` over steps of rows, ``walk`` along rows of steps."""
 
     def __init__(self, law) -> None:
-        super().__init__({"law": law}, {"rows": loops, "scan": scans})
+        super().__init__({"law": law}, {"rows": loops, "scan": scans, "walk": walks})
 
     def scan(self, initial, inputs, parameters, outputs, size):
         """Carry the state from step to step.
@@ -112,7 +121,8 @@ class Kernel(Loops):
             initial: Arrays of one entry or of as many as there are rows.
             inputs: Arrays of ``steps`` entries, or of ``steps`` times ``rows``.
             parameters: Arrays like ``initial``.
-            outputs: Flat arrays of ``rows`` entries for the end, or of (steps + 1) times ``rows``.
+            outputs: For every entry of the state a flat array of ``rows`` entries for the end, or of (steps + 1) times
+                ``rows`` for every step.
             size: Steps and rows.
         """
         count, width = size
@@ -125,59 +135,99 @@ class Kernel(Loops):
         arguments = (
             begin, walk, shared, own, tuple(c for c, _ in held), tuple(s for _, s in held), outputs, (count, width)
         )  # fmt: skip
-        constants = (("KEEP", outputs[0].size > width), ("PATTERN", pattern))
+        kept = sum(1 << k for k, out in enumerate(outputs) if out.size > width)
+        ends = (1 << len(outputs)) - 1 - kept
+        constants = (("STATES", len(outputs)), ("PATTERN", pattern), ("KEPT", kept), ("ENDS", ends))
         self.loop("scan", arguments, count * width, width, constants)
+
+    def walk(self, begin, inputs, outputs, size):
+        """Carry poses along rows of steps.
+
+        Args:
+            begin: x, y and heading of the first poses: arrays of one entry or of as many as there are rows.
+            inputs: Arrays of 1, ``steps``, or ``rows`` times ``steps`` entries.
+            outputs: Flat arrays of ``rows`` entries for the end, or of ``rows`` times (steps + 1).
+            size: Rows and steps.
+        """
+        rows, steps = size
+        group = _group(steps)
+        first, hold = zip(*(_column(a, (rows,), rows) for a in begin), strict=True)
+        paces = tuple(int(array.size > 1) for array in inputs)
+        strides = tuple(steps if array.size > steps else 0 for array in inputs)
+        ins = tuple(
+            _read_only(a if stride else (np.tile(a, group) if group > 1 else a) if pace else _spread(a, WIDTH))
+            for a, stride, pace in zip(inputs, strides, paces, strict=True)
+        )
+        constants = (("KEEP", outputs[0].size > rows),)
+        self.loop("walk", (first, hold, ins, strides, paces, outputs, (*size, group)), rows * steps, WIDTH * rows,
+                  constants)  # fmt: skip
+
+    def run_into(self, outputs, inputs, shape):
+        """``run`` where the outputs may lie in memory as they like, over the inputs too."""
+        fit = [_may_be_written(out, inputs) for out in outputs]
+        targets = [out if fits else np.empty(shape, out.dtype) for out, fits in zip(outputs, fit, strict=True)]
+        self.run(inputs, targets, shape)
+        for out, target in zip(outputs, targets, strict=True):
+            if out is not target:
+                out[...] = target
 
     def run(self, inputs, outputs, shape):
         """Evaluate the law on every row of the broadcast inputs.
 
         Args:
             inputs: Arrays of one float type that broadcast to ``shape``.
-            outputs: Arrays of ``shape`` and that type, which may lie in memory as they like, over the inputs too.
+            outputs: Arrays of ``shape`` and that type, contiguous and apart from the inputs.
             shape: The common shape.
         """
-        fit = [_may_be_written(out, inputs) for out in outputs]
-        targets = [out if fits else np.empty(shape, out.dtype) for out, fits in zip(outputs, fit, strict=True)]
-        self.fill("rows", inputs, tuple(t.reshape(-1) for t in targets), shape)
-        for out, target in zip(outputs, targets, strict=True):
-            if out is not target:
-                out[...] = target
+        constants = (("SINGLE", True),) if inputs[0].dtype == np.float32 else ()
+        self.fill("rows", inputs, tuple([o.reshape(-1) for o in outputs]), shape, constants=constants)
 
 
-class SearchKernel(Loops):
-    """The laws of a search inside the loops of ``rounds``."""
+def _laid_out(piece, space):
+    """The piece in a row, in a space that it may fill."""
+    column = space[: piece.size]
+    column.reshape(piece.shape)[...] = piece
+    return _read_only(column)
 
-    def __init__(self, laws, sizes) -> None:
-        super().__init__(laws, {"rounds": rounds})
-        more = {"WITH": 1 + sizes["ROW"], "SPAN": 3 + sizes["ARGS"]}
-        self._constants = tuple({**sizes, **more}.items())
-        self.one = None  # from a tuple of numbers and the rounds to the answer; there after the first batch
 
-    def run(self, inputs, outputs, shape, rounds_at_most):
-        """Search every row of the broadcast inputs; the outputs are new arrays of ``shape``."""
-        columns = tuple(out.reshape(-1) for out in outputs)
-        more = (rounds_at_most,)
-        self.fill("rounds", inputs, columns, shape, more=more, work=rounds.WORK, constants=self._constants)
-        if self.one is None:
-            self._call("rounds", "rounds_one", self._constants, ((0.5,) * len(inputs), 1))
-            self.one = self._compiled("rounds", "rounds_one", self._constants)
+def _slabs(shape, most):
+    """Indices that cut an array into pieces of ``most`` rows or fewer, one after another as they lie in memory."""
+    axis = next(k for k in range(len(shape)) if math.prod(shape[k + 1 :]) <= most)
+    length = most // math.prod(shape[axis + 1 :])
+    for outer in np.ndindex(shape[:axis]):
+        for first in range(0, shape[axis], length):
+            yield (*outer, slice(first, first + length))
+
+
+def _group(steps):
+    """How many whole rows of steps make a tile: a count of steps that fills vectors, if one does."""
+    most = max(1, WIDTH // max(1, steps))
+    even = VECTOR // math.gcd(steps, VECTOR)
+    return most - most % even if most >= even else most
 
 
 def _column(array, shape, rows):
-    """The array as a flat column and its step, or None where it has to be spread first.
+    """The array as a flat column and its step; None and None where it has to be spread first.
 
     All columns are read-only, so that a loop is compiled once whether or not the caller's arrays are.
     """
-    if array.size == 1:
-        return _read_only(np.full(min(rows, loops.BLOCK), array.item(), array.dtype)), 0
-    if array.shape == shape and array.flags.c_contiguous and array.flags.aligned:
-        return _read_only(array.reshape(-1)), 1
-    return None, 1
+    if array.shape == shape:
+        layout = array.flags
+        if layout.c_contiguous and layout.aligned:
+            return _read_only(array), 1
+    if array.size and not any(s for s, n in zip(array.strides, array.shape, strict=True) if n > 1):
+        return _read_only(_spread(array, min(rows, loops.BLOCK))), 0
+    return None, None
+
+
+def _spread(array, count):
+    """The one number of an array so many times."""
+    return np.full(count, array.flat[0], array.dtype)
 
 
 def _read_only(array):
-    column = array.view()
-    column.flags.writeable = False
+    column = array.reshape(-1)
+    column.setflags(write=False)
     return column
 
 
@@ -195,13 +245,18 @@ def _label(laws, constants):
 
 def _parts(laws, texts, label, names):
     """The parts of loops over these laws by name; beside each law stands its safe form under the name ``safe_...``."""
+    single = names.get("SINGLE", False)
     for name, law in laws.items():
         safe_law = bind(law, SAFE, _out_of_line, _safe_laws)
         names[f"safe_{name}"] = safe_law
-        names[name] = bind(law, FAST, inline, _fast_laws) if shows_every_nan(law) else safe_law
+        names[name] = _fast_law(law, single=single) if shows_every_nan(law) else safe_law
     for part in texts.PARTS:
         names[part.__name__] = njit(_template(part, label, names), fastmath=FLAGS, error_model="numpy", nogil=True)
     return names
+
+
+def _fast_law(law, *, single):
+    return bind(law, SINGLE, in_single, _single_laws) if single else bind(law, FAST, inline, _fast_laws)
 
 
 def _template(text, label, names):

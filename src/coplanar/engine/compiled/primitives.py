@@ -15,16 +15,20 @@ from numba.extending import overload
 from coplanar.engine.arrays import DSINC_BELOW, PI, SERIES_BELOW, TAU, dsinc_series
 from coplanar.engine.compiled import elementary
 from coplanar.engine.compiled.elementary import FLAGS, inline
+from coplanar.engine.compiled.single import elementary_functions, in_single
 from coplanar.engine.gauss import MOST_PANELS, rule
 
-
-@inline
-def sqrt(x):
-    """Square root; zero for x <= 0, NaN for NaN."""
-    return math.sqrt(x if x > 0.0 else 0.0 * x)
+NAN = math.nan
 
 
-def _trigonometry(pair, angle):
+def _root(make):
+    def sqrt(x):
+        return math.sqrt(x if x > 0.0 else 0.0 * x)  # zero for x <= 0, NaN for NaN
+
+    return make(sqrt)
+
+
+def _trigonometry(pair, angle, series_of_dsinc, make):
     """The primitives that follow from sincos and atan2."""
 
     def sin(x):
@@ -52,13 +56,10 @@ def _trigonometry(pair, angle):
         s, c = pair(apart)
         return x * series_of_dsinc(x * x) if small else (c - s / apart) / apart
 
-    return {f.__name__: inline(f) for f in (sin, cos, tan, atan, sinc, dsinc)}
+    return {f.__name__: make(f) for f in (sin, cos, tan, atan, sinc, dsinc)}
 
 
-series_of_dsinc = inline(dsinc_series)
-
-
-def _common():
+def _common(make):
     """Comparisons and roundings, the same in both sets."""
 
     def where(condition, yes, no):
@@ -82,7 +83,7 @@ def _common():
     def absolute(x):
         return abs(x)
 
-    return {f.__name__: inline(f) for f in (where, minimum, maximum, nearest, copysign, floor, absolute)}
+    return {f.__name__: make(f) for f in (where, minimum, maximum, nearest, copysign, floor, absolute)}
 
 
 def _libm():
@@ -155,9 +156,9 @@ def _scaled_terms(terms, factor):
     return lambda terms, factor: (factor * terms[0], *scaled_terms(terms[1:], factor))
 
 
-def _panel_of(integrand, points):
+def _panel_of(integrand, points, number=float):
     """One Gauss-Legendre panel, its nodes unrolled by type: only then does the loop over rows become vector code."""
-    nodes, weights = rule(points)
+    nodes, weights = (tuple(map(number, values)) for values in rule(points))
 
     def add_nodes(total, middle, half, nodes, weights, parameters):
         """The terms of the nodes that are left."""
@@ -179,16 +180,19 @@ def _panel_of(integrand, points):
     return panel
 
 
-def _one_panel(integrand, points):
+def _one_panel(make, number):
     """The integral where one panel is enough, NaN where it is not."""
-    panel = _panel_of(integrand, points)
 
-    @inline
-    def integrate(panels, lower, upper, *parameters):
-        half = 0.5 * (upper - lower)
-        return panel(lower + half, half if panels <= 1.0 else math.nan, parameters)
+    def one_panel(integrand, points):
+        panel = _panel_of(integrand, points, number)
 
-    return integrate
+        def integrate(panels, lower, upper, *parameters):
+            half = 0.5 * (upper - lower)
+            return panel(lower + half, half if panels <= 1.0 else NAN, parameters)
+
+        return make(integrate)
+
+    return one_panel
 
 
 def _all_panels(integrand, points):
@@ -207,15 +211,18 @@ def _all_panels(integrand, points):
     return integrate
 
 
-def _primitives(functions, integral):
+def _primitives(functions, integral, make=inline):
+    series_of_dsinc = make(dsinc_series)
+    follow = _trigonometry(functions["sincos"], functions["atan2"], series_of_dsinc, make)
     return {
-        **_common(), **functions, **_trigonometry(functions["sincos"], functions["atan2"]),
-        "sqrt": sqrt, "integral": integral, "dsinc_series": series_of_dsinc,
+        **_common(make), **functions, **follow, "sqrt": _root(make), "integral": integral,
+        "dsinc_series": series_of_dsinc,
     }  # fmt: skip
 
 
 _LIBM = _libm()
-FAST = _primitives({name: getattr(elementary, name) for name in _LIBM}, _one_panel)
+FAST = _primitives({name: getattr(elementary, name) for name in _LIBM}, _one_panel(inline, float))
+SINGLE = _primitives(elementary_functions(_LIBM), _one_panel(in_single, np.float32), in_single)
 SAFE = _primitives(_LIBM, _all_panels)
 NAN_WHERE_NOT = frozenset(
     (*_LIBM, "sin", "cos", "tan", "atan", "sinc", "dsinc", "integral")

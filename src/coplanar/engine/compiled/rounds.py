@@ -2,7 +2,7 @@
 
 ``begin``, ``span``, ``rates``, ``improve``, ``finish``, their safe forms and the constants ROW (numbers of a row), WITH
 (and whether it goes on), STATE, SPAN (what a span has), ARGS (of them parameters) and SUMS are names that
-``coplanar.engine.compiled.kernels`` supplies; the bodies are templates and never run as they stand. A row shows a NaN
+``coplanar.engine.compiled.search`` supplies; the bodies are templates and never run as they stand. A row shows a NaN
 where a fast primitive does not answer; it is searched for again, safely, from its beginning.
 
 The columns of the table are the row (ROW), its span (how many panels; middle and half of the present one; the

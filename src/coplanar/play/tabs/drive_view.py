@@ -1,0 +1,187 @@
+"""What a run of the point tracker looks like: path, poles, commands, errors."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from coplanar.control import PointTracker, Stability, StabilityReport
+from coplanar.curves import HeldPoint, Reference
+from coplanar.play.answer import Answer, Handle
+from coplanar.play.controls import State
+from coplanar.run import Run, RunStatus
+from coplanar.se2 import Pose
+from coplanar.viz.scene import Scene
+
+FRAMES = 201  # of the animation and the series: samples of the run
+LIVE_FRAMES = 81  # while something is dragged
+KEPT_REPORTS = 64
+SPEEDS = 2001  # samples of the reference, to find how fast it moves
+WANTED = 161  # points of the reference as it is drawn
+FAR = 50.0  # times half the view: a path that goes further is cut there
+EDGE = 1.28  # a pole further out is drawn at the edge of its picture
+ROBOT = 0.08  # radius of the disc that is drawn, over half the view
+ROLES = {"euler": "fifth", "rk4": "fourth", "exact": "third", "midpoint": "second", "heun": "second"}
+TONES = {Stability.STABLE: "good", Stability.BOUNDARY: "warn", Stability.UNSTABLE: "no"}
+
+Follower = tuple[PointTracker, Reference | HeldPoint, Pose]
+
+
+def show(answer: Answer, state: State, follower: Follower, runs: dict[str, Run], *, live: bool) -> None:
+    """Everything about one state; the first run is the one of the chosen method."""
+    tracker, reference, start = follower
+    half = half_view(state)
+    chosen, *_ = runs.values()
+    speed = top_speed(reference, state["duration"])
+    report = _report((state["px"], state["py"]), (state["kp"], state["kd"], state["ki"]), tracker.feedforward,
+                     tracker.error_against, state["step"], state["method"], speed)  # fmt: skip
+    rows = shown_rows(chosen, half, LIVE_FRAMES if live else FRAMES)
+    answer.pictures["main"] = _picture(follower, half, chosen, runs, rows)
+    answer.pictures["poles"] = poles(report)
+    _handles(answer, state, start, half)
+    _say(answer, report, chosen, rows, state)
+    _read(answer, report, chosen)
+    _plot(answer, chosen, runs, rows)
+
+
+def half_view(state: State) -> float:
+    """Half the width of the view [m]; it depends on the size of the reference alone."""
+    named = state["curve"] not in ("stroke", "point")
+    return max(1.7 * float(state["size"]), 0.8) if named else 2.0
+
+
+@lru_cache(maxsize=KEPT_REPORTS)
+def _report(
+    point: tuple[float, float], gains: tuple[float, float, float], ahead: bool, against: str, step: float,
+    method: str, speed: float,
+) -> StabilityReport:  # fmt: skip
+    """What the loop will do; kept, because a drag of the reference or the start asks for the same one every frame."""
+    tracker = PointTracker(point, *gains, feedforward=ahead, error_against=against)
+    return tracker.stability(step, method=method, speed=speed)
+
+
+def shown_rows(run: Run, half: float, frames: int = FRAMES) -> np.ndarray:
+    """Rows that are drawn: evenly, as far as the run stays anywhere near."""
+    with np.errstate(all="ignore"):
+        gone = ~(np.hypot(run["x"], run["y"]) < FAR * half)
+    last = int(gone.argmax()) - 1 if gone.any() else len(run) - 1
+    return np.unique(np.linspace(0, max(last, 1), frames).round().astype(int))
+
+
+def poles(report: StabilityReport) -> Scene:
+    """The poles in the unit circle: inside, an error dies out; on it the loop is on its stability boundary."""
+    scene = Scene(unit="", view=(-1.35, 1.35, -1.35, 1.35))
+    scene = scene.discs([0.0, 0.0, 1.0], role="good", fill=True, opacity=0.8)
+    scene = scene.segments([-1.35, 0.0, 1.35, 0.0, 0.0, -1.35, 0.0, 1.35], width=1.0, opacity=0.6)
+    groups = [("first", report.poles)]
+    if report.lateral_poles is not None:
+        groups.insert(0, ("second", report.lateral_poles))
+    for role, found in groups:
+        for pole in found.tolist():
+            x, y = (min(max(part, -EDGE), EDGE) for part in (pole.real, pole.imag))
+            scene = scene.cross([x, y], role="no" if abs(pole) > 1.0 else role, size=7.0)
+            if max(abs(pole.real), abs(pole.imag)) > EDGE:
+                scene = scene.text(f"|z| = {abs(pole):.3g}", [x, y], role="no", shift=(0, -12))
+    return scene
+
+
+def _picture(follower: Follower, half: float, run: Run, runs: dict[str, Run], rows: np.ndarray) -> Scene:
+    tracker, reference, _ = follower
+    poses = run.poses
+    table = poses.as_array()[rows]
+    point = np.column_stack(Pose(*table.T).act(tracker.px, tracker.py))
+    scene = Scene(run.t[rows], view=(-half, half, -half, half))
+    if isinstance(reference, Reference):
+        scene = scene.curve(reference.curve.position(reference.curve.parameters(WANTED)), dashed=True)
+    for method, other in runs.items():
+        if len(runs) > 1:
+            drawn = shown_rows(other, half)
+            scene = scene.curve(other.stacked("x", "y")[drawn], role=ROLES[method])
+    around = np.linspace(0.0, 2.0 * np.pi, 33)
+    disc = ROBOT * half * np.column_stack((np.cos(around), np.sin(around)))
+    scene = scene.trail(point).body(table, disc)
+    levers = [0.0, 0.0, float(tracker.px), float(tracker.py)]
+    scene = scene.carried(table, levers, role="muted", width=1.5).moving_point(point, role="trail", size=4.0)
+    return scene.moving_point(reference.position(run.t[rows]), size=4.0)
+
+
+def _handles(answer: Answer, state: State, start: Pose, half: float) -> None:
+    x, y, theta = (float(part) for part in start.parts)
+    reach = 2.2 * ROBOT * half
+    nose = (x + reach * math.cos(theta), y + reach * math.sin(theta))
+    if state["curve"] != "stroke":
+        label = "Target of P" if state["curve"] == "point" else "Curve: drag its centre"
+        answer.handles.append(Handle("curve", label, (state["curve_x"], state["curve_y"])))
+    answer.handles.append(Handle("start", "Start of the robot", (x, y)))
+    said = f"{math.degrees(theta):.0f} degrees"
+    answer.handles.append(Handle("heading", "Heading at the start", nose, step=0.05, about=(x, y), value=said))
+
+
+def top_speed(reference: Reference | HeldPoint, duration: float) -> float:
+    """Of the reference, over the whole run [m/s]."""
+    return float(np.hypot(*reference.velocity(np.linspace(0.0, duration, SPEEDS)).T).max())
+
+
+def _say(answer: Answer, report: StabilityReport, run: Run, rows: np.ndarray, state: State) -> None:
+    answer.say(TONES[report.status], report.status.value)
+    for warning in report.warnings:
+        answer.say("warn", warning)
+    if run.status is RunStatus.DIVERGED:
+        answer.say("no", run.status.value)
+    elif rows[-1] < len(run) - 1:
+        answer.say("no", f"the path leaves the picture for good at t = {run.t[rows[-1]]:.3g} s")
+    if state["limited"] and len(run) > 1:
+        limits = np.array([state["v_limit"], state["omega_limit"]]) * (1.0 - 1e-9)
+        share = float((np.abs(run.commands[1:]) >= limits).any(axis=-1).mean())
+        if share > 0.0:
+            answer.say("warn", f"the limits hold the command back in {100.0 * share:.3g} % of the steps")
+    if state["curve"] == "stroke" and not state["stroke"]:
+        answer.say("note", "draw a curve for P to follow")
+
+
+def _read(answer: Answer, report: StabilityReport, run: Run) -> None:
+    answer.read("margin", "margin 1 - |largest pole|", report.margin, "", "Stability")
+    answer.read("largest_step", "stable for steps below", report.largest_step, "s", "Stability")
+    for name, found in (("pole", report.poles), ("lateral pole", report.lateral_poles)):
+        for i, pole in enumerate([] if found is None else found.tolist(), 1):
+            answer.read(f"{name.replace(' ', '_')}_{i}", f"{name} {i}", _complex(pole), "", "Stability")
+    with np.errstate(all="ignore"):
+        off = np.hypot(*run.errors.T)
+        largest = {"v": np.abs(run["v"]).max(), "omega": np.abs(run["omega"]).max()}
+    answer.read("last_error", "error at the end", float(off[-1]), "m", "Run")
+    answer.read("largest_error", "largest error", float(off.max()), "m", "Run")
+    answer.read("largest_v", "largest |v|", float(largest["v"]), "m/s", "Run")
+    answer.read("largest_omega", "largest |omega|", float(largest["omega"]), "rad/s", "Run")
+    for name in ("x", "y", "theta"):
+        answer.read(f"end_{name}", f"{name} at the end", float(run[name][-1]), "rad" if name == "theta" else "m", "Run")
+
+
+def _plot(answer: Answer, run: Run, runs: dict[str, Run], rows: np.ndarray) -> None:
+    time = ("time [s]", run.t[rows])
+    answer.plot("Forward velocity", "m/s", time, {"v": run["v"][rows]})
+    answer.plot("Turn rate", "rad/s", time, {"omega": run["omega"][rows]})
+    answer.plot("Error", "m", time, {"ex": run["ex"][rows], "ey": run["ey"][rows]})
+    if "exact" in runs and len(runs) > 1:
+        apart = {method: _apart(other, runs["exact"], rows) for method, other in runs.items() if method != "exact"}
+        answer.plot("Distance from the exact run", "m", time, apart, roles=ROLES)
+        for method, distance in apart.items():
+            most = float(np.nanmax(distance, initial=0.0))
+            answer.read(f"apart_{method}", f"{method} from exact, at most", most, "m", "Integrators")
+
+
+def _apart(run: Run, exact: Run, rows: np.ndarray) -> Any:
+    """Distance between two runs at the rows; NaN where one of them has ended."""
+    length = min(len(run), len(exact))
+    inside = rows[rows < length]
+    with np.errstate(all="ignore"):
+        gap = np.hypot(*(run.stacked("x", "y")[inside] - exact.stacked("x", "y")[inside]).T)
+    return np.concatenate([gap, np.full(len(rows) - len(inside), np.nan)])
+
+
+def _complex(value: complex) -> str:
+    if abs(value.imag) < 5e-7:
+        return f"{value.real:.6g}"
+    return f"{value.real:.6g} {'+' if value.imag > 0.0 else '-'} {abs(value.imag):.6g}i"

@@ -1,0 +1,1 @@
+"""Pieces that scenarios are made of: arms, curves, bases, controllers, projectiles, motions."""
