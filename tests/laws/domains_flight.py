@@ -34,15 +34,20 @@ def _launch(columns):
     return [*np.abs(thetas), _speed(v0), *_direction(c, s), *_forces(k, g)]
 
 
+def _units(v0, k, g):
+    """Drag K, gravity G and 1/G in the units of a launch."""
+    return flight.scales(_speed(v0), *_forces(k, g))[1:]
+
+
 def _rates(columns):
-    theta, v0, A, B, k, g, a = columns
-    return [np.abs(theta), _speed(v0), *_sides(A, B), *_forces(k, g), 0.1 + np.abs(a)]
+    theta, A, B, v0, k, g = columns
+    return [np.abs(theta), *_sides(A, B), *_units(v0, k, g)]
 
 
 def _derivative_rates(columns):
-    theta, v0, _, A, B, k, g, a = columns
-    theta, v0, A, B, k, g, a = _rates([theta, v0, A, B, k, g, a])
-    return [theta, v0, np.sqrt(A * B), A, B, k, g, a]
+    theta, v0, A, B, k, g, _ = columns
+    theta, A, B, K, G, W = _rates([theta, A, B, v0, k, g])
+    return [theta, np.sqrt(A * B), A, B, K, G, W]
 
 
 def _pace(columns):
@@ -60,14 +65,14 @@ def _parameter(columns):
     return [np.abs(theta), *_pace(rest)]
 
 
-def _drop(columns):
-    lower, further, v0, c, s, k, g, *slope = columns
-    return [*_launch([lower, np.abs(lower) + np.abs(further), v0, c, s, k, g]), *_direction(*slope)]
-
-
 def _ballistic(columns):
     t, v0, c, s, g = columns
     return [np.abs(t), _speed(v0), *_direction(c, s), np.abs(g)]
+
+
+def _bend(columns):
+    t, v0, A, B, g = columns
+    return [np.abs(t), _speed(v0), *_sides(A, B), np.abs(g)]
 
 
 def _positive(columns):
@@ -96,6 +101,7 @@ def _mean(columns):
 
 DOMAIN = {
     flight.atan_ratio: _not_negative,
+    flight.ballistic_bend: _bend,
     flight.ballistic_turn: _ballistic,
     flight.climb_height: _positive,
     flight.climb_speed: _positive,
@@ -104,18 +110,18 @@ DOMAIN = {
     flight.coast: lambda columns: [0.1 * columns[0], *columns[1:3], *_forces(*columns[3:])],
     flight.derivative_rates: _derivative_rates,
     flight.derivatives: _launch,
-    flight.drop: _drop,
-    flight.fall_time: _positive,
     flight.first_climb: lambda columns: [*columns[:2], 0.1 + np.abs(columns[2]), *_forces(*columns[3:])],
     flight.free_speed: _positive,
-    flight.hodograph: lambda columns: _rates([*columns, columns[0]])[:6],
+    flight.hodograph: _rates,
     flight.hold_off: _not_negative,
     flight.last_turn: lambda columns: _launch(columns),
     flight.launch_speed_of_mean: _mean,
     flight.log1p_ratio: _not_negative,
+    flight.lean: _derivative_rates,
     flight.miss_across: lambda columns: [*columns[:4], *_positive(columns[4:6]), *columns[6:]],
     flight.pace: _pace,
     flight.parallel_turn: lambda columns: [*_direction(*columns[:2]), *_direction(*columns[2:])],
+    flight.scales: _pace,
     flight.sides: lambda columns: _direction(*columns),
     flight.speed_at_height: _level,
     flight.straight_time: _positive,

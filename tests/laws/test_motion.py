@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from coplanar import Displacement, Pose
-from coplanar.engine import evaluator, scalars
+from coplanar.engine import evaluator, gauss
 from coplanar.integrators import integrate_ode
 from coplanar.laws import motion as laws
 from coplanar.motion import DrivingHistory, Odometry, OdometryNoise, Program, Segment
@@ -339,7 +339,7 @@ def test_covariance_is_that_of_many_noisy_runs():
     np.testing.assert_allclose(np.cov(ends.T) / scale, expected / scale, atol=0.1)
 
 
-@pytest.mark.parametrize("fraction", [*(below for below, _ in scalars._FEWER), 0.999])
+@pytest.mark.parametrize("fraction", [*(part for _, part in gauss.PARTS[:-1]), 0.999])
 @pytest.mark.parametrize("share", [-1.0, -0.5, 0.0, 0.5, 1.0])
 def test_fewer_points_for_a_fraction_of_a_panel_lose_nothing(fraction, share):
     turn = fraction * laws.PANEL_PHASE  # over [-1, 1], from omega and from alpha in these shares

@@ -8,6 +8,7 @@ import pytest
 from coplanar import errors
 from coplanar.flight import AimStatus, Projectile, forms, roots
 from coplanar.flight.roots import falling_root, rising_root
+from coplanar.laws.aiming import arc, farthest
 
 BALL = Projectile(mass=1.0, drag=0.02)
 FREE = Projectile(mass=1.0, drag=0.0, gravity=10.0)
@@ -25,6 +26,15 @@ class TestAim:
     def test_refuses_numbers(self, words):
         with pytest.raises(errors.InvalidValue):
             BALL.aim((5.0, 5.0), **words)
+
+    @pytest.mark.parametrize("target", [(30.0, 1e12), (0.0, 1e12), (30.0, 1e6)])
+    def test_a_target_as_high_as_no_speed_climbs(self, target):
+        least, best = BALL.aim(target), BALL.aim(target, speed=30.0)
+        assert least.status is AimStatus.TOO_FAST
+        assert np.isnan(least.low.speed)
+        assert best.status is AimStatus.OUT_OF_REACH
+        assert np.allclose([best.low.speed, best.high.speed], 30.0, rtol=1e-12)
+        assert np.isclose(best.miss(), best.shortfall, rtol=1e-6)
 
     @pytest.mark.parametrize("words", [{"speed": 3.0}, {"angle": 1.0}, {}])
     def test_the_launch_point_is_no_target(self, words):
@@ -80,6 +90,9 @@ class TestAim:
     def test_a_search_that_stops_early_says_so(self, words, monkeypatch):
         monkeypatch.setattr(roots, "ROUNDS", 1)
         monkeypatch.setattr(forms, "ROUNDS", 1)
+        for search in (arc, farthest):
+            monkeypatch.setattr(search, "rounds", 1)
+            monkeypatch.setattr(search, "_loops", None)
         aim = BALL.aim((20.0, 5.0), **words)
         assert aim.status is AimStatus.NOT_FOUND
         with pytest.raises(errors.NoSolution, match="stopped before"):

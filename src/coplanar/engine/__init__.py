@@ -35,6 +35,7 @@ from coplanar.engine.arrays import (
 from coplanar.engine.evaluator import Evaluator, can_compile, evaluator, reproducible
 from coplanar.engine.foreign import components, is_foreign, namespace_of, stack
 from coplanar.engine.scan import Scan
+from coplanar.engine.search import Search
 from coplanar.engine.walk import Walk, running_sum
 
 __all__ = [
@@ -43,6 +44,7 @@ __all__ = [
     "Evaluator",
     "Integral",
     "Scan",
+    "Search",
     "Walk",
     "absolute",
     "asinh",

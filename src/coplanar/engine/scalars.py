@@ -8,7 +8,7 @@ from math import asinh, atan, atan2, atanh, copysign, cos, cosh, expm1, hypot, l
 from typing import Any
 
 from coplanar.engine.arrays import DSINC_BELOW, PI, SERIES_BELOW, TAU, dsinc_series
-from coplanar.engine.gauss import panel_count, rule
+from coplanar.engine.gauss import PARTS, WHOLE, panel_count, rule
 
 exp = math.exp
 absolute = abs
@@ -67,19 +67,14 @@ def dsinc(x: float) -> float:
     return x * dsinc_series(x * x) if abs(x) < DSINC_BELOW else (cos(x) - sin(x) / x) / x
 
 
-# What a fraction of a panel can do with, where a whole one takes 16 points: the nearest singularity is further away by
-# that fraction. Each line leaves out less than 1e-16 of the integral of |f|.
-_FEWER = ((0.0125, 7), (0.05, 8), (0.1, 9), (0.2, 10), (0.3, 11), (0.5, 12))
-
-
 def integral(integrand: Any, points: int) -> Any:
     """The integral of a law that was bound to these primitives, by Gauss-Legendre panels."""
-    fewer = _FEWER if points == 16 else ()
-    sizes = [fraction for fraction, _ in fewer]
-    rules = [tuple(zip(*rule(n), strict=True)) for n in (*(n for _, n in fewer), points)]
+    fewer = PARTS[:-1] if points == WHOLE else ()
+    parts = [part for _, part in fewer]
+    rules = [tuple(zip(*rule(n), strict=True)) for n in (*(n for n, _ in fewer), points)]
 
     def integrate(panels: float, lower: float, upper: float, *parameters: float) -> tuple[float, ...]:
-        pairs = rules[bisect_left(sizes, panels)]
+        pairs = rules[bisect_left(parts, panels)]
         count = panel_count(panels)
         half = 0.5 * (upper - lower) / count if panels <= count else math.nan
         total = _panel(integrand, lower + half, half, pairs, parameters)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import cos, hypot, sin
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -11,7 +12,8 @@ from coplanar import checks
 from coplanar.checks import ArrayLike, Real
 from coplanar.engine import components, stack
 from coplanar.errors import InvalidInput, InvalidValue, NoSolution
-from coplanar.flight import forms
+from coplanar.flight import forms, reach
+from coplanar.flight.answers import answers
 from coplanar.flight.forms import AimStatus
 from coplanar.flight.shot import Shot
 from coplanar.flight.state import FlightState, plain
@@ -66,7 +68,7 @@ class Aim:
         code: Place of the status in ``AimStatus``, an int or an array of them.
         low: The low arc: the flatter launch, the shorter flight.
         high: The lofted arc; the low one again where only one launch exists.
-        furthest: How far the given speed goes in the direction of the target; infinite where that is not limited [m].
+        top_speed: The speed that was given; infinite where none was [m/s].
         shortfall: How far the target is beyond ``furthest`` at the given speed, or aside of the line of the launch at
             the given angle; 0 where it is hit [m].
     """
@@ -77,7 +79,7 @@ class Aim:
     code: Any
     low: Arc
     high: Arc
-    furthest: Real
+    top_speed: Real
     shortfall: Real
 
     @property
@@ -102,6 +104,20 @@ class Aim:
         worst = np.maximum(*(np.hypot(*np.moveaxis(end - self.target, -1, 0)) for end in ends))
         return plain(np.where(np.isnan(worst), np.inf, worst))
 
+    @property
+    def furthest(self) -> Real:
+        """How far the given speed goes in the direction of the target; infinite where that is not limited [m].
+
+        Worked out when asked.
+        """
+        (tx, ty), (sx, sy) = components(self.target), components(self.start)
+        slope = np.arctan2(ty - sy, np.abs(tx - sx))
+        limited = np.isfinite(self.top_speed) & (slope > -0.5 * np.pi)
+        if not limited.any():
+            return plain(np.full(limited.shape, np.inf))
+        speed, slope = np.where(limited, self.top_speed, 1.0), np.where(limited, slope, 0.0)
+        return plain(np.where(limited, reach.furthest(self.projectile, speed, slope).distance, np.inf))
+
     def least(self) -> Aim:
         """The launch of least speed through the same target: what a target that is out of reach needs."""
         return self.projectile.aim(self.target, start=self.start)
@@ -115,13 +131,13 @@ class Aim:
     def where(self, rows: Any, other: Aim) -> Aim:
         """This answer in the rows that are True, the other one elsewhere; both are for the same targets."""
         arcs = [
-            _arc(self.projectile, tuple(components(self.start)), _chosen(rows, one, two), 1.0, np.shape(rows))
+            _arc(self.projectile, tuple(components(self.start)), _chosen(rows, one, two))
             for one, two in ((self.low, other.low), (self.high, other.high))
         ]
         code = np.where(rows, self.code, other.code)
         numbers = [
             plain(np.where(rows, one, two))
-            for one, two in ((self.furthest, other.furthest), (self.shortfall, other.shortfall))
+            for one, two in ((self.top_speed, other.top_speed), (self.shortfall, other.shortfall))
         ]
         return Aim(self.projectile, self.start, self.target, int(code) if code.ndim == 0 else code, *arcs, *numbers)
 
@@ -150,53 +166,53 @@ def aim(
     if len(given) > 1:
         raise InvalidInput(" and ".join(given), tuple(given.values()), "one of time, speed, angle, or none of them")
     tx, ty = components(checks.vector("target", target, 2))
-    sx, sy = components(checks.vector("start", start, 2))
+    sx, sy = map(checks.frozen, components(checks.vector("start", start, 2)))
     name, value = next(iter(given.items()), ("nothing", 1.0))
     check = checks.real if name == "angle" else checks.positive
     number = check(name, value)
-    checks.broadcast(target=tx, start=sx, k=projectile.drag_per_mass, **{name: number})
-    rows = np.broadcast_arrays(tx - sx, ty - sy, projectile.drag_per_mass, projectile.gravity, number)
-    x, y, k, g, number = (np.asarray(row, dtype=np.float64) for row in rows)
-    if np.any((x == 0.0) & (y == 0.0) & ((name != "time") | (g <= 0.0))):
+    k, g = projectile.drag_per_mass, projectile.gravity
+    shape = checks.broadcast(target=tx, start=sx, k=k, **{name: number})
+    if name == "speed" and (alone := _one(projectile, (sx, sy), (tx, ty), number)):
+        return alone
+    found = answers(name, [tx, ty, sx, sy, k, g, number], shape)
+    if found.lost_point:
         raise InvalidValue(
             "target", target, "a point away from the launch point", "only a flight time leads back to it"
         )
-    side = np.where(x < 0.0, -1.0, 1.0)
-    way = forms.Way(np.abs(x), y, k, g)
-    with np.errstate(all="ignore"):  # what is not a number is said by the code
-        answer = _answer(way, name, number, side)
-    shortfall = np.where(answer.code == forms.OUT_OF_REACH, way.distance - answer.furthest, 0.0)
-    if name == "angle":
-        shortfall = np.where(answer.code == forms.OFF_THE_LINE, _aside(way, side * np.cos(number), np.sin(number)), 0.0)
-    shape = rows[0].shape
-    low, high = (_arc(projectile, (sx, sy), arc, side, shape) for arc in (answer.low, answer.high))
-    code = np.broadcast_to(answer.code, shape)
-    points = [stack(np.broadcast_arrays(*point, np.empty(shape))[:2]) for point in ((sx, sy), (tx, ty))]
-    return Aim(
-        projectile, checks.frozen(points[0]), checks.frozen(points[1]), int(code) if not shape else code, low, high,
-        plain(answer.furthest + np.zeros(shape)), plain(shortfall + np.zeros(shape)),
-    )  # fmt: skip
+    low, high = (_arc(projectile, (sx, sy), arc) for arc in (found.low, found.high))
+    begin, end = (_spread(stack(point), (*shape, 2)) for point in ((sx, sy), (tx, ty)))
+    top = _spread(number if name == "speed" else np.inf, shape)
+    code = found.code if shape else int(found.code)
+    return Aim(projectile, begin, end, code, low, high, plain(top), plain(found.shortfall))
 
 
-def _answer(way: forms.Way, name: str, number: np.ndarray, side: np.ndarray) -> forms.Answer:
-    if name == "time":
-        return forms.by_time(way, number)
-    if name == "speed":
-        return forms.by_speed(way, number)
-    if name == "angle":
-        return forms.by_angle(way, side * np.cos(number), np.sin(number))
-    return forms.by_least(way)
+def _one(projectile: Projectile, start: tuple[Real, ...], target: tuple[Real, ...], speed: Real) -> Aim | None:
+    """The answer to one ordinary target, without arrays; None where it is not that."""
+    numbers = (*start, *target, projectile.drag_per_mass, projectile.gravity, speed)
+    if not all(type(number) is float for number in numbers):
+        return None
+    sx, sy, tx, ty, k, g, _ = numbers
+    side = -1.0 if tx < sx else 1.0
+    found = forms.one_by_speed(side * (tx - sx), ty - sy, k, g, speed)
+    if found is None:
+        return None
+    low, high, code, most = found
+    one, two = (
+        Arc(Shot._of(projectile, sx, sy, side * speed * sin(z), speed * cos(z)), time) for z, time in (low, high)
+    )
+    short = hypot(tx - sx, ty - sy) - most if code == forms.OUT_OF_REACH else 0.0
+    begin, end = (checks.frozen(np.array(point)) for point in (start, target))
+    return Aim(projectile, begin, end, code, one, two, speed, short)
 
 
-def _aside(way: forms.Way, cosine: np.ndarray, sine: np.ndarray) -> np.ndarray:
-    """Distance of the target from the half line along which it is launched."""
-    ahead = way.x * cosine + way.y * sine > 0.0
-    return np.where(ahead, np.abs(way.x * sine - way.y * cosine), way.distance)
-
-
-def _arc(projectile: Projectile, start: tuple[Real, ...], arc: Any, side: Any, shape: tuple[int, ...]) -> Arc:
-    vx, vy, time = (plain(np.broadcast_to(part, shape)) for part in (side * arc[0], arc[1], arc[2]))
+def _arc(projectile: Projectile, start: tuple[Real, ...], arc: Any) -> Arc:
+    vx, vy, time = map(plain, arc)
     return Arc(Shot._of(projectile, *start, vx, vy), time)
+
+
+def _spread(value: Any, shape: tuple[int, ...]) -> np.ndarray:
+    """A copy of the value, seen in a shape."""
+    return np.broadcast_to(checks.frozen(np.asarray(value)), shape)
 
 
 def _chosen(rows: Any, yes: Arc, no: Arc) -> list[Any]:

@@ -7,11 +7,13 @@ Velocities are NaN where there is no launch. All rows are arrays of one shape.
 from __future__ import annotations
 
 from enum import Enum
+from math import hypot
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from coplanar.engine import evaluator
+from coplanar.flight.arcs import arcs, time_to
 from coplanar.flight.path import Path, at_time, by_launch, crossing
 from coplanar.flight.sight import Sight
 from coplanar.laws import flight as laws
@@ -29,8 +31,8 @@ _straight_time = evaluator(laws.straight_time)
 
 UPRIGHT = 1e-9  # cosine of a line of sight that counts as vertical: the shot is a straight one, leaning by first order
 ALONG = 1e-12  # [rad] between a launch and the line of sight that counts as along it, where only along it will do
-ASTRAY = 1e-9  # part of the distance by which a launch that was found may miss; it misses by about 1e-14
 ROUNDS = 60  # of Newton for the flight time; it takes about six
+FASTEST = 1e50  # [m/s]
 MOST_HOLD = 115.0  # k times mean speed times time: beyond, the speed of launch is about 1e50 times the mean speed
 
 
@@ -123,18 +125,27 @@ def by_time(way: Way, time: np.ndarray) -> Answer:
 def by_speed(way: Way, speed: np.ndarray) -> Answer:
     """The low and the high launch at a speed; the one that goes farthest, twice, where the target is out of reach."""
     sight, length = way.ordinary()
-    low, high, best, most = sight.both(length, speed)
-    far = length > most
-    low, high = np.where(far, best, low), np.where(far, best, high)
-    (one, lost), (two, lost_too) = (_launched(sight, np.minimum(length, most), speed, z) for z in (low, high))
-    arcs, furthest = [one, two], most
-    code = np.where(lost | lost_too, NOT_FOUND, np.where(far, OUT_OF_REACH, HIT))
+    found = arcs(sight, length, speed)
+    low, high = ((speed * np.sin(z), speed * np.cos(z), t) for z, t in (found[:2], found[2:4]))
+    far = length > found.most
+    code = np.where(found.lost, NOT_FOUND, np.where(far, OUT_OF_REACH, HIT))
+    both, furthest = [low, high], found.most
     for special, instead in ((way.upright, _upright_by_speed), (way.weightless, _straight_by_speed)):
         if special.any():
             other = instead(way, speed)
-            arcs = [_merged(special, one, arc) for one, arc in zip(other[:2], arcs, strict=True)]
+            both = [_merged(special, one, arc) for one, arc in zip(other[:2], both, strict=True)]
             code, furthest = np.where(special, other.code, code), np.where(special, other.furthest, furthest)
-    return Answer(arcs[0], arcs[1], code, furthest)
+    return Answer(both[0], both[1], code, furthest)
+
+
+def one_by_speed(x: float, y: float, k: float, g: float, speed: float) -> tuple[Any, Any, int, float] | None:
+    """Angle and time of both arcs, the code and the limit for one row of floats; None where the shot is straight."""
+    length = hypot(x, y)
+    if not (g > 0.0 and x > UPRIGHT * length):
+        return None
+    found = arcs(Sight(x / length, y / length, k, g), length, speed)
+    code = NOT_FOUND if found.lost else OUT_OF_REACH if length > found.most else HIT
+    return found[:2], found[2:4], code, found.most
 
 
 def by_angle(way: Way, cosine: np.ndarray, sine: np.ndarray) -> Answer:
@@ -150,9 +161,7 @@ def by_angle(way: Way, cosine: np.ndarray, sine: np.ndarray) -> Answer:
     code = np.where(way.upright | way.weightless, OFF_THE_LINE, code)
     code = np.where((along & way.weightless) | drops, ANY_SPEED, code)
     climbs = along & way.upright & ~way.weightless & (way.y > 0.0)
-    code = np.where(climbs, HIT, code)
-    arc = _kept(code == HIT, *(_merged(climbs, _climb(way), arc) if climbs.any() else arc))
-    return Answer(arc, arc, code, np.inf)
+    return _climbing(way, climbs, arc, code)
 
 
 def by_least(way: Way) -> Answer:
@@ -161,10 +170,16 @@ def by_least(way: Way) -> Answer:
     speed, zenith = sight.least(length)
     arc, lost = _launched(sight, length, speed, zenith)
     code = _found(speed, lost)
-    climbs = way.upright & (way.y > 0.0)
-    code = np.where(climbs, HIT, code)
     code = np.where(way.weightless | (way.upright & (way.y <= 0.0)), ANY_SPEED, code)
-    arc = _kept(code == HIT, *(_merged(climbs, _climb(way), arc) if climbs.any() else arc))
+    return _climbing(way, way.upright & (way.y > 0.0) & ~way.weightless, arc, code)
+
+
+def _climbing(way: Way, climbs: np.ndarray, arc: tuple[Row, Row, Row], code: Row) -> Answer:
+    """The answer with the least launch straight up in the rows that climb."""
+    if climbs.any():
+        climb = _climb(way)
+        arc, code = _merged(climbs, climb, arc), np.where(climbs, _found(climb[1], False), code)
+    arc = _kept(code == HIT, *arc)
     return Answer(arc, arc, code, np.inf)
 
 
@@ -187,20 +202,13 @@ def _solve(a: Row, b: Row, c: Row, d: Row, e: Row, f: Row) -> tuple[Row, Row]:
 
 
 def _found(speed: Row, lost: Row) -> Row:
-    return np.where(np.isfinite(speed), np.where(lost, NOT_FOUND, HIT), TOO_FAST)
+    return np.where(speed < FASTEST, np.where(lost, NOT_FOUND, HIT), TOO_FAST)
 
 
 def _launched(sight: Sight, length: Row, speed: Row, zenith: Row) -> tuple[tuple[Row, Row, Row], Row]:
-    """The velocity, the time at which the path is nearest to the end of the line of sight, and whether it misses that.
-
-    A path that is nearly parallel to the line crosses it at a place known less well than the path itself.
-    """
-    path = sight.path(np.where(np.isfinite(speed), speed, 1.0), zenith)
-    end, _ = crossing(path, sight.cosine, sight.sine)
-    dx, dy = length * sight.cosine - end.x, length * sight.sine - end.y
-    later = (dx * end.vx + dy * end.vy) / (end.vx * end.vx + end.vy * end.vy)
-    lost = ~(np.hypot(dx - later * end.vx, dy - later * end.vy) <= ASTRAY * length)
-    return (speed * path.cosine, speed * path.sine, end.time + later), lost
+    """The velocity and flight time of a launch to the end of the line of sight, and whether it misses that."""
+    time, lost = time_to(sight, length, np.where(np.isfinite(speed), speed, 1.0), zenith)
+    return (speed * np.sin(zenith), speed * np.cos(zenith), time), lost
 
 
 def _straight_by_speed(way: Way, speed: Row) -> Answer:
@@ -220,8 +228,9 @@ def _upright_by_speed(way: Way, speed: Row) -> Answer:
     rise = _climb_time(speed, _speed_at_height(speed, height, k, g), k, g)
     down, _ = crossing(Path(speed, 0.0, -1.0, k, g), 1.0, 0.0, np.where(up, 1.0, -way.y))
     back, _ = crossing(Path(speed, 0.0, 1.0, k, g), 1.0, 0.0, -np.minimum(way.y, most))
-    low = _leaning(way, np.where(up, speed, -speed), np.where(up, rise, down.time))
-    high = _leaning(way, speed + 0.0 * way.y, np.where(far, rise, back.time))
+    nearer = way._replace(x=np.where(far, way.x * (most / np.where(far, way.y, 1.0)), way.x))
+    low = _leaning(nearer, np.where(up, speed, -speed), np.where(up, rise, down.time))
+    high = _leaning(nearer, speed + 0.0 * way.y, np.where(far, rise, back.time))
     return Answer(low, high, np.where(far, OUT_OF_REACH, HIT), most)
 
 

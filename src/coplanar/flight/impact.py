@@ -10,8 +10,9 @@ import numpy as np
 
 from coplanar.engine import stack
 from coplanar.errors import NoSolution
-from coplanar.flight.path import State, by_launch, crossing
+from coplanar.flight.path import State, by_launch
 from coplanar.flight.state import FlightState, Sensitivity
+from coplanar.laws.landing import landing
 from coplanar.solving import code_of, count_by_status, status_of
 
 if TYPE_CHECKING:
@@ -43,22 +44,22 @@ class Impact:
         shot: The shot.
         line: What it comes down on.
         code: Place of the status in ``ImpactStatus``, an int or an array of them.
-        end: The state there; where the line is never crossed, at the nearest point of the path.
+        state: Time, position and velocity there; where the line is never crossed, at the nearest point of the path.
+        theta: The parameter of the hodograph there.
     """
 
     shot: Shot
     line: Line
     code: Any
-    end: State
+    state: FlightState
+    theta: Real
 
     @classmethod
     def of(cls, shot: Shot, line: Line) -> Impact:
         """The crossing of a shot and a line."""
-        side = shot.side
-        height = line.cosine * (np.asarray(shot.y) - line.y) - line.sine * (np.asarray(shot.x) - line.x)
-        end, reached = crossing(shot.path(), line.cosine, side * np.asarray(line.sine), height)
-        code = np.where(reached, code_of(ImpactStatus.REACHED), code_of(ImpactStatus.NEVER))
-        return cls(shot, line, int(code) if code.ndim == 0 else code, end)
+        k, g = shot.projectile.drag_per_mass, shot.projectile.gravity
+        theta, *state, code = landing(shot.x, shot.y, shot.vx, shot.vy, k, g, *line)
+        return cls(shot, line, code.astype(np.int8) if np.ndim(code) else int(code), FlightState(*state), theta)
 
     @property
     def status(self) -> Any:
@@ -69,11 +70,6 @@ class Impact:
     def reached(self) -> Any:
         """Whether the line is crossed; an array of bool for a batch."""
         return self.code == code_of(ImpactStatus.REACHED)
-
-    @property
-    def state(self) -> FlightState:
-        """Time, position and velocity there."""
-        return self.shot._world(self.end, self.end.time)
 
     @property
     def time(self) -> Real:
@@ -100,9 +96,10 @@ class Impact:
 
     def sensitivity(self) -> Sensitivity:
         """How the point of impact moves along the line with the speed and the angle of the launch."""
-        x_v, y_v, x_psi, y_psi = by_launch(self.shot.path(), self.end)
-        side, c = self.shot.side, np.asarray(self.line.cosine)
-        s, vx, vy = side * np.asarray(self.line.sine), self.end.vx, self.end.vy
+        side, now, c = self.shot.side, self.state, np.asarray(self.line.cosine)
+        s, vx, vy = side * np.asarray(self.line.sine), side * now.vx, now.vy
+        end = State(self.theta, now.time, side * (now.x - self.shot.x), now.y - self.shot.y, vx, vy)
+        x_v, y_v, x_psi, y_psi = by_launch(self.shot.path(), end)
         along = []
         for dx, dy in ((x_v, y_v), (x_psi, y_psi)):
             delay = -(c * dy - s * dx) / (c * vy - s * vx)

@@ -13,6 +13,7 @@ import numpy as np
 from coplanar.engine import evaluator
 from coplanar.flight.roots import ROUNDING, rising_root
 from coplanar.laws import flight as laws
+from coplanar.laws.landing import landing
 
 Row = Any  # a float or an array of float64
 
@@ -20,18 +21,13 @@ _ballistic_turn = evaluator(laws.ballistic_turn)
 _coast = evaluator(laws.coast)
 _clock = evaluator(laws.clock)
 _derivatives = evaluator(laws.derivatives)
-_drag_rates = evaluator(laws.drag_rates)
-_drop = evaluator(laws.drop)
-_fall_time = evaluator(laws.fall_time)
 _last_turn = evaluator(laws.last_turn)
 _parallel_turn = evaluator(laws.parallel_turn)
 _theta_of_straight = evaluator(laws.theta_of_straight)
 _theta_of_turn = evaluator(laws.theta_of_turn)
 _travel = evaluator(laws.travel)
-_turn = evaluator(laws.turn)
 _velocity = evaluator(laws.velocity)
 
-NEAR = 1e-13  # a wall is reached when this part of the way to it is left
 LONGEST = 4.0  # longest Newton step in theta beyond what has been seen: the speed falls by exp(2) in it at most
 
 
@@ -114,26 +110,11 @@ def crossing(path: Path, slope_cosine: Row, slope_sine: Row, height: Row = 0.0) 
     Returns:
         The state there and True, or the state nearest to the line and False.
     """
-    top = parallel(path, slope_cosine, slope_sine)
-    away = (np.asarray(path.gravity) <= 0.0) & (slope_sine * top.vx - slope_cosine * top.vy <= 0.0)
-    clearance = height + slope_cosine * top.y - slope_sine * top.x
-    fall = np.where(away, 0.0, np.maximum(clearance, 0.0))
-    end = np.where(np.asarray(path.gravity) > 0.0, np.maximum(last_theta(path), top.theta), np.inf)
-    start = _first_crossing(path, top, fall, slope_cosine, slope_sine)
-
-    def fallen(theta: Row, fall: Row, top: Row, *path_and_slope: Row) -> tuple[Row, Row]:
-        drop, rate = _drop(top, theta, *path_and_slope)
-        with np.errstate(all="ignore"):
-            level = np.sqrt(fall / np.maximum(drop, 0.0))  # Newton on sqrt(drop), which is smooth where it starts
-        return drop - fall, 0.5 * rate * (1.0 + np.where(np.isfinite(level), level, 1.0))
-
-    start = np.where(fall > 0.0, np.clip(start, top.theta, end), top.theta)
-    given = (fall, top.theta, *path, slope_cosine, slope_sine)
-    state = state_at(path, rising_root(fallen, start, top.theta, end, *given, longest=LONGEST))
-    rest = np.where(away, 0.0, np.maximum(height + slope_cosine * state.y - slope_sine * state.x, 0.0))
-    wall = np.asarray(slope_cosine) <= 0.0
-    later = _time_down(path, state, np.where(wall, 0.0, rest), slope_cosine, slope_sine)
-    return after(path, state, later), (clearance >= 0.0) & ~away & ~(wall & (rest > NEAR * fall))
+    v, c, s, k, g = path
+    *state, missed = landing(
+        0.0, 0.0, v * c, v * s, k, g, height * slope_sine, -height * slope_cosine, slope_cosine, slope_sine
+    )
+    return State(*state), np.asarray(missed) <= 0.0
 
 
 def by_launch(path: Path, state: State) -> tuple[Row, Row, Row, Row]:
@@ -145,20 +126,3 @@ def by_launch(path: Path, state: State) -> tuple[Row, Row, Row, Row]:
         x_psi - state.vx * t_psi,
         y_psi - state.vy * t_psi,
     )
-
-
-def _first_crossing(path: Path, top: State, fall: Row, slope_cosine: Row, slope_sine: Row) -> Row:
-    """The parameter theta of the crossing if there were no drag from the top on: never too late."""
-    vx, g = np.maximum(top.vx, laws.STEEP * path.speed), path.gravity  # at the apex of a straight climb both are 0
-    v = np.hypot(vx, top.vy)
-    time = _time_down(path._replace(drag_per_mass=0.0), top, fall, slope_cosine, slope_sine)
-    turn = _turn(top.theta, path.speed, path.drag_per_mass, g)
-    cosine, sine = vx / v, top.vy / v
-    return theta_of_turn(path, turn * np.maximum(1.0, _ballistic_turn(time, v, cosine, sine, g)))
-
-
-def _time_down(path: Path, state: State, height: Row, slope_cosine: Row, slope_sine: Row) -> Row:
-    """Time to come nearer to a line by a height at the present acceleration."""
-    ax, ay = _drag_rates(state.vx, state.vy, path.drag_per_mass, path.gravity)
-    speed = slope_sine * state.vx - slope_cosine * state.vy
-    return _fall_time(height, np.maximum(speed, 0.0), slope_sine * ax - slope_cosine * ay)

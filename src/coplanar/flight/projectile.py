@@ -9,13 +9,16 @@ import numpy as np
 
 from coplanar import checks
 from coplanar.checks import ArrayLike, Real
-from coplanar.engine import components
-from coplanar.errors import InvalidInput
+from coplanar.engine import components, evaluator
+from coplanar.errors import InvalidInput, InvalidValue
 from coplanar.flight import aiming, reach
 from coplanar.flight.aiming import Aim
 from coplanar.flight.reach import Reach, Tolerant
-from coplanar.flight.shot import Shot
+from coplanar.flight.shot import TOO_FAST, Shot
 from coplanar.flight.state import plain
+from coplanar.laws import landing as laws
+
+_launch_velocity = evaluator(laws.launch_velocity)
 
 HERE = (0.0, 0.0)
 
@@ -139,12 +142,14 @@ class Projectile:
         if polar == (velocity is not None) or (speed is None) != (angle is None):
             given = {"speed": speed, "angle": angle, "velocity": velocity}
             raise InvalidInput("launch", given, "speed and angle, or velocity alone")
-        x, y = components(checks.vector("start", start, 2))
+        x, y = HERE if start is HERE else map(checks.frozen, components(checks.vector("start", start, 2)))
         if velocity is not None:
             return Shot(self, x, y, *components(checks.vector("velocity", velocity, 2)))
         v, psi = checks.positive("speed", speed), checks.real("angle", angle)
-        checks.broadcast(speed=v, angle=psi)
-        return Shot(self, x, y, plain(v * np.cos(psi)), plain(v * np.sin(psi)))
+        checks.broadcast(speed=v, angle=psi, start=x, k=self.drag)
+        if not np.all(np.less(v, TOO_FAST)):
+            raise InvalidValue("speed", speed, "a speed below 1e150 m/s")
+        return Shot._of(self, x, y, *_launch_velocity(v, psi))
 
     def aim(
         self,

@@ -64,10 +64,12 @@ class Shot:
 
     @classmethod
     def _of(cls, projectile: Projectile, *parts: Real) -> Shot:
-        """The shot without the checks; NaN where there is no launch."""
+        """The shot without the checks, of arrays that are nobody else's; NaN where there is no launch."""
         new = object.__new__(cls)
         for name, value in zip(("projectile", "x", "y", "vx", "vy"), (projectile, *parts), strict=True):
-            object.__setattr__(new, name, checks.frozen(value))
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
+            object.__setattr__(new, name, value)
         return new
 
     @property

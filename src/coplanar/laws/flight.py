@@ -12,10 +12,10 @@ With A = 1 + sin psi0 and B = 1 - sin psi0,
     N = (u0/u)^2 = 1 + k v0^2 q ((A^2/m + B^2 m)(1 + 1/m)/4 + A B log(m)/(g q)),
     v cos psi = v0 cos psi0 / sqrt N,   v sin psi = v0 (A/m - B m)/2 / sqrt N.
 
-The quadrature runs in theta, with q = expm1(theta)/a. Its only singularities are the zeros of N: the one on the real
-axis, where the speed would have been infinite before the launch, is sent to -infinity or to the line of imaginary part
-pi by the choice of ``pace`` a; the others stay at least pi/2 from the real axis. A Gauss panel of ``PANEL`` and 16
-points then errs by less than 3.2^-32 of the integral.
+The quadrature runs in theta, with q = expm1(theta)/a, and with v0 and a for units (``scales``). Its only singularities
+are the zeros of N: the one on the real axis, where the speed would have been infinite before the launch, is sent to
+-infinity or to the line of imaginary part pi by the choice of ``pace`` a; the others stay at least pi/2 from the real
+axis. A Gauss panel of ``PANEL`` and 16 points then errs by less than 3.2^-32 of the integral.
 
 Sources: de Mestre 1990, The Mathematics of Projectiles in Sport, ch. 3; Parker 1977, Am. J. Phys. 45, 606.
 """
@@ -36,6 +36,7 @@ from coplanar.engine import (
 PANEL = 2.2  # widest panel in theta
 STRAIGHT = 1e-16  # a cosine below this is straight up or down
 STEEP = 1e-10  # and takes this hodograph: t and y differ by its square, and x is linear in the true cosine
+WEAKEST = 0.5**100  # gravity over ``pace``: none is the limit of so little, and a power of 2 rounds nothing
 FAINTEST = 1e-12  # [1/m] drag in ``pace`` only, so that a flight without any force has one too
 SERIES_BELOW = 1e-5  # the first term left out is below 3e-16
 
@@ -94,19 +95,31 @@ def theta_of_turn(m, v0, k, g):
     return log1p(where(still, 0.0, pace(v0, k, g) * (m - 1.0) / where(still, 1.0, g)))
 
 
-def hodograph(q, v0, A, B, k, g):
-    """The turn m, cosh(s)/cosh(s0), sinh(s)/cosh(s0) and N = (u0/u)^2 at q."""
-    m = 1.0 + g * q
-    up, down = A / m, B * m
-    n = 1.0 + k * v0 * v0 * q * (0.25 * (A * up + B * down) * (1.0 + 1.0 / m) + A * B * log1p_ratio(g * q))
-    return m, 0.5 * (up + down), 0.5 * (up - down), n
+def scales(v0, k, g):
+    """The pace a, drag K = k v0^2/a, gravity G = g/a and 1/G, with the speed of launch and the pace for units."""
+    a = pace(v0, k, g)
+    G = maximum(g / a, WEAKEST)
+    return a, k * v0 * v0 / a, G, 1.0 / G
 
 
-def travel_rates(theta, v0, A, B, k, g, a):
-    """Rates of t, x/cos(psi0), y: (v, v^2 cos psi/cos psi0, v^2 sin psi) exp(theta)/(a m)."""
-    m, cosh_s, sinh_s, n = hodograph(expm1(theta) / a, v0, A, B, k, g)
-    step = v0 * cosh_s * exp(theta) / (a * m)
-    return step / sqrt(n), step * v0 / n, step * v0 * sinh_s / n
+def hodograph(q, A, B, K, G, W):
+    """Turn m, 1/m, cosh(s)/cosh(s0), sinh(s)/cosh(s0), N = (u0/u)^2 and log(m)/G at q, where W = 1/G."""
+    turned = G * q
+    m = 1.0 + turned
+    back = 1.0 / m
+    up, down = A * back, B * m
+    log_m = W * log1p(turned)
+    n = 1.0 + K * (0.25 * q * (A * up + B * down) * (1.0 + back) + A * B * log_m)
+    return m, back, 0.5 * (up + down), 0.5 * (up - down), n, log_m
+
+
+def travel_rates(theta, A, B, K, G, W):
+    """Rates of t, x/cos(psi0), y: (v, v^2 cos psi/cos psi0, v^2 sin psi) exp(theta)/m."""
+    q = expm1(theta)
+    _, back, cosh_s, sinh_s, n, _ = hodograph(q, A, B, K, G, W)
+    step, slow = (1.0 + q) * back * cosh_s, 1.0 / n
+    way = step * slow
+    return step * sqrt(slow), way, way * sinh_s
 
 
 distance = Integral(travel_rates)
@@ -115,14 +128,17 @@ distance = Integral(travel_rates)
 def travel(lower, upper, v0, c, s, k, g):
     """Time, x and y flown from theta = lower to upper after a launch at speed v0 along (c, s)."""
     A, B = sides(c, s)
-    t, x, y = distance((upper - lower) / PANEL, lower, upper, v0, A, B, k, g, pace(v0, k, g))
-    return t, c * x, y
+    a, K, G, W = scales(v0, k, g)
+    t, x, y = distance((upper - lower) / PANEL, lower, upper, A, B, K, G, W)
+    unit = v0 / a
+    return unit * t, unit * v0 * c * x, unit * v0 * y
 
 
 def velocity(theta, v0, c, s, k, g):
     """Velocity vx = v0 cos psi0/sqrt N,  vy = v0 (A/m - B m)/2/sqrt N."""
     A, B = sides(c, s)
-    _, _, sinh_s, n = hodograph(expm1(theta) / pace(v0, k, g), v0, A, B, k, g)
+    _, K, G, W = scales(v0, k, g)
+    _, _, _, sinh_s, n, _ = hodograph(expm1(theta), A, B, K, G, W)
     u = v0 / sqrt(n)
     return u * c, u * sinh_s
 
@@ -130,19 +146,10 @@ def velocity(theta, v0, c, s, k, g):
 def clock(theta, v0, c, s, k, g):
     """Time t(theta) and dt/dtheta."""
     A, B = sides(c, s)
-    a = pace(v0, k, g)
-    t, _, _ = distance(theta / PANEL, 0.0, theta, v0, A, B, k, g, a)
-    rate, _, _ = travel_rates(theta, v0, A, B, k, g, a)
-    return t, rate
-
-
-def drop(lower, theta, v0, c, s, k, g, slope_c, slope_s):
-    """Distance lost from theta = lower on, across a line of direction (slope_c, slope_s), and its rate by theta."""
-    A, B = sides(c, s)
-    a = pace(v0, k, g)
-    _, x, y = distance((theta - lower) / PANEL, lower, theta, v0, A, B, k, g, a)
-    _, x_rate, y_rate = travel_rates(theta, v0, A, B, k, g, a)
-    return slope_s * c * x - slope_c * y, slope_s * c * x_rate - slope_c * y_rate
+    a, K, G, W = scales(v0, k, g)
+    t, _, _ = distance(theta / PANEL, 0.0, theta, A, B, K, G, W)
+    rate, _, _ = travel_rates(theta, A, B, K, G, W)
+    return v0 / a * t, v0 / a * rate
 
 
 def parallel_turn(c, s, slope_c, slope_s):
@@ -158,12 +165,18 @@ def last_turn(v0, c, s, k, g):
     return 2.0e16 / B * (1.0 + sqrt(g / (k + FAINTEST)) / v0)
 
 
+def ballistic_bend(t, v0, A, B, g):
+    """How far the path has turned after the time t without drag, (m - 1)/g: t/v0 without gravity."""
+    w = 0.5 * (A - B) - g * t / v0
+    up, h = absolute(w), sqrt(A * B + w * w)
+    risen = w > 0.0
+    return t / v0 * (up + h + where(risen, A, B)) / ((1.0 + h) * where(risen, up + h, B))
+
+
 def ballistic_turn(t, v0, c, s, g):
     """Turn m after the time t without drag; with drag the path turns more."""
     A, B = sides(c, s)
-    w = s - g * t / v0
-    h = sqrt(A * B + w * w)
-    return where(w > 0.0, A / (absolute(w) + h), (absolute(w) + h) / B)
+    return 1.0 + g * ballistic_bend(t, v0, A, B, g)
 
 
 def coast(time, vx, vy, k, g):
@@ -177,30 +190,30 @@ def coast(time, vx, vy, k, g):
     return x, time * (vy + 0.5 * time * ay), vx * exp(-fade * time), vy + time * ay
 
 
-def fall_time(height, speed, g):
-    """Time to lose a height at an initial rate and a constant acceleration: 2 h/(w + sqrt(w^2 + 2 g h))."""
-    root = speed + sqrt(speed * speed + 2.0 * g * height)
-    still = root <= 0.0
-    return where(still, 0.0, 2.0 * height / where(still, 1.0, root))
-
-
-def derivative_rates(theta, v0, c, A, B, k, g, a):
-    """Derivatives of the rates of t, x, y at a constant q: by v0, then by psi0."""
-    q = expm1(theta) / a
-    m, cosh_s, sinh_s, n = hodograph(q, v0, A, B, k, g)
-    step = v0 * exp(theta) / (a * m)
-    root = sqrt(n)
-    turned = -0.5 * c * g * q * (1.0 + 1.0 / m)  # d cosh_s/d psi0 = -cos psi0 sinh(s0 - s)
-    lifted = 0.5 * c * (m + 1.0 / m)  # d sinh_s/d psi0 = cos psi0 cosh(s0 - s)
-    slowed = k * v0 * v0 * q * c * (sinh_s * (1.0 + 1.0 / m) - (A - B) * log1p_ratio(g * q)) / n  # d log N/d psi0
-    by_speed = step * cosh_s / (v0 * n)
+def lean(q, c, A, B, K, G, W):
+    """What d/d psi0 at a constant q makes of the hodograph: that, then of cosh(s), sinh(s) and log N."""
+    m, back, cosh_s, sinh_s, n, log_m = hodograph(q, A, B, K, G, W)
+    slow = 1.0 / n
     return (
-        by_speed / root,
-        2.0 * by_speed * c * v0 / n,
-        2.0 * by_speed * v0 * sinh_s / n,
-        step * (turned - 0.5 * cosh_s * slowed) / root,
-        step * v0 * (c * (turned - cosh_s * slowed) - 0.5 * (A - B) * cosh_s) / n,
-        step * v0 * (lifted * cosh_s + sinh_s * (turned - cosh_s * slowed)) / n,
+        (1.0 + q) * back, cosh_s, sinh_s, slow,
+        -0.5 * c * G * q * (1.0 + back),  # -cos psi0 sinh(s0 - s)
+        0.5 * c * (m + back),  # cos psi0 cosh(s0 - s)
+        K * c * (q * sinh_s * (1.0 + back) - (A - B) * log_m) * slow,
+    )  # fmt: skip
+
+
+def derivative_rates(theta, c, A, B, K, G, W):
+    """Derivatives of the rates of t, x, y at a constant q: by v0, then by psi0."""
+    step, cosh_s, sinh_s, slow, turned, lifted, slowed = lean(expm1(theta), c, A, B, K, G, W)
+    root = sqrt(slow)
+    by_speed, way, twice = step * cosh_s * slow, step * slow, turned - cosh_s * slowed
+    return (
+        by_speed * root,
+        2.0 * by_speed * c * slow,
+        2.0 * by_speed * sinh_s * slow,
+        step * root * (turned - 0.5 * cosh_s * slowed),
+        way * (c * twice - 0.5 * (A - B) * cosh_s),
+        way * (lifted * cosh_s + sinh_s * twice),
     )
 
 
@@ -210,7 +223,10 @@ dependence = Integral(derivative_rates)
 def derivatives(theta, v0, c, s, k, g):
     """Derivatives of t, x, y by the speed v0, then by the angle psi0, at a constant q (a constant turn)."""
     A, B = sides(c, s)
-    return dependence(theta / PANEL, 0.0, theta, v0, c, A, B, k, g, pace(v0, k, g))
+    a, K, G, W = scales(v0, k, g)
+    t_v, x_v, y_v, t_psi, x_psi, y_psi = dependence(theta / PANEL, 0.0, theta, c, A, B, K, G, W)
+    unit, length = v0 / a, v0 * v0 / a
+    return t_v / a, unit * x_v, unit * y_v, unit * t_psi, length * x_psi, length * y_psi
 
 
 def climb_height(v0, k, g):

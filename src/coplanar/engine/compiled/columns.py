@@ -10,7 +10,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-WIDTH = 256  # rows of a table: 64 columns of them are 128 KiB, which the second-level cache holds
+WIDTH = 264  # rows of a table: 64 columns of them are 128 KiB, which the second-level cache holds
 
 
 def _pointer(context, builder, kind, column, place):

@@ -129,11 +129,14 @@ def expm1(x):
 
 
 @inline
-def log(x):
-    """Natural logarithm: k log 2 + log m, m in [sqrt(1/2), sqrt 2); log m by s = (m - 1)/(m + 1).  [fdlibm]"""
+def _log_sum(x, rest):
+    """log(x + rest) of a number and what its rounding lost: k log 2 + log m, m in [sqrt(1/2), sqrt 2).
+
+    log m by s = (m - 1)/(m + 1).  [fdlibm]
+    """
     bits = _bits(x)
     k = (bits - 4604544271217802189) >> 52  # the bits of sqrt(1/2)
-    f = _float_of(bits - (k << 52)) - 1.0
+    f = (_float_of(bits - (k << 52)) - 1.0) + rest * _float_of((1023 - k) << 52)
     s = f / (2.0 + f)
     z = s * s
     series = z * (6.666666666666735130e-01 + z * (3.999999999940941908e-01 + z * (2.857142874366239149e-01 + z * (
@@ -147,11 +150,16 @@ def log(x):
 
 
 @inline
+def log(x):
+    """Natural logarithm."""
+    return _log_sum(x, 0.0)
+
+
+@inline
 def log1p(x):
-    """log(1 + x): the logarithm of the rounded sum, and what the rounding lost."""
+    """log(1 + x): the logarithm of the rounded sum and of what the rounding lost."""
     total = 1.0 + x
-    lost = (x - (total - 1.0)) if x < 1.0 else (1.0 - (total - x))
-    return log(total) + lost / total
+    return _log_sum(total, (x - (total - 1.0)) if x < 1.0 else (1.0 - (total - x)))
 
 
 @inline

@@ -41,6 +41,7 @@ class Loops:
         self._texts = texts
         self._lock = threading.Lock()
         self._loops: dict = {}
+        self._parts: dict = {}
 
     def loop(self, kind, arguments, work, rows, constants=()):
         """Threads where they pay and are free; a forked child never touches the parent's threads."""
@@ -58,15 +59,53 @@ class Loops:
             self._compiled(kind, loop, constants)(*arguments)
         except OSError:  # the cache folder went away, or is full
             with self._lock:
-                self._loops[loop, constants] = _compile(self._laws, self._texts[kind], loop, constants, cached=False)
+                self._loops[loop, constants] = self._compile(kind, loop, constants, cached=False)
             self._loops[loop, constants](*arguments)
 
     def _compiled(self, kind, loop, constants):
         if (loop, constants) not in self._loops:
             with self._lock:
                 if (loop, constants) not in self._loops:
-                    self._loops[loop, constants] = _compile(self._laws, self._texts[kind], loop, constants)
+                    self._loops[loop, constants] = self._compile(kind, loop, constants)
         return self._loops[loop, constants]
+
+    def _compile(self, kind, loop, constants, *, cached=True):
+        """A loop over these laws; the loops of a kind share their parts."""
+        label, texts = _label(self._laws, constants), self._texts[kind]
+        if (kind, constants) not in self._parts:
+            self._parts[kind, constants] = _parts(self._laws, texts, label, dict(constants))
+        with in_folder() as writeable:
+            return njit(
+                _template(getattr(texts, loop), label, self._parts[kind, constants]), fastmath=FLAGS,
+                error_model="numpy", nogil=True, cache=cached and writeable, parallel=loop.endswith("parallel"),
+            )  # fmt: skip
+
+    def fill(self, kind, inputs, columns, shape, *, more=(), work=1, constants=()):
+        """Run a loop over the rows of inputs that broadcast to the shape of the flat output columns.
+
+        Inputs that do not lie as the loop reads them are laid out, a part at a time.
+        """
+        rows = math.prod(shape)
+        ready = [_column(a, shape, rows) for a in inputs]
+        ins, steps = zip(*ready, strict=True)
+        if None not in steps:
+            self.loop(kind, (ins, steps, columns, rows, *more), work * rows, rows, constants)
+            return
+        steps = tuple(1 if step is None else step for step in steps)
+        whole = [np.broadcast_to(a, shape) for a in inputs]
+        room = [None if column is not None else np.empty(min(rows, SPREAD_ROWS), a.dtype.newbyteorder("="))
+                for (column, _), a in zip(ready, inputs, strict=True)]  # fmt: skip
+        start = 0
+        for index in _slabs(shape, SPREAD_ROWS):
+            count = whole[0][index].size
+            stop = start + count
+            ins = tuple(
+                _laid_out(array[index], space) if column is None else column[start:stop] if step else column
+                for (column, step), array, space in zip(ready, whole, room, strict=True)
+            )
+            outs = tuple(c[start:stop] for c in columns)
+            self.loop(kind, (ins, steps, outs, count, *more), work * count, count, constants)
+            start = stop
 
 
 class Kernel(Loops):
@@ -140,30 +179,8 @@ class Kernel(Loops):
             outputs: Arrays of ``shape`` and that type, contiguous and apart from the inputs.
             shape: The common shape.
         """
-        rows = math.prod(shape)
-        self._fill([_column(a, shape, rows) for a in inputs], inputs, tuple([o.reshape(-1) for o in outputs]), shape)
-
-    def _fill(self, ready, inputs, columns, shape):
-        rows = math.prod(shape)
         constants = (("SINGLE", True),) if inputs[0].dtype == np.float32 else ()
-        ins, steps = zip(*ready, strict=True)
-        if None not in steps:
-            self.loop("rows", (ins, steps, columns, rows), rows, rows, constants)
-            return
-        steps = tuple(1 if step is None else step for step in steps)
-        whole = [np.broadcast_to(a, shape) for a in inputs]
-        room = [None if column is not None else np.empty(min(rows, SPREAD_ROWS), a.dtype.newbyteorder("="))
-                for (column, _), a in zip(ready, inputs, strict=True)]  # fmt: skip
-        start = 0
-        for index in _slabs(shape, SPREAD_ROWS):
-            stop = start + whole[0][index].size
-            ins = tuple(
-                _laid_out(array[index], space) if column is None else column[start:stop] if step else column
-                for (column, step), array, space in zip(ready, whole, room, strict=True)
-            )
-            outs = tuple(c[start:stop] for c in columns)
-            self.loop("rows", (ins, steps, outs, stop - start), stop - start, stop - start, constants)
-            start = stop
+        self.fill("rows", inputs, tuple([o.reshape(-1) for o in outputs]), shape, constants=constants)
 
 
 def _laid_out(piece, space):
@@ -219,23 +236,23 @@ def _may_be_written(out, inputs):
     return out.flags.c_contiguous and out.flags.aligned and not any(np.may_share_memory(out, a) for a in inputs)
 
 
-def _compile(laws, texts, loop, constants, *, cached=True):
-    """The loop over these laws; beside each of them stands its safe form under the name ``safe_...``."""
+def _label(laws, constants):
+    """What tells the loops of these laws from all others."""
     first = next(iter(laws.values()))
     digest = _digest(*laws.values())
-    label = "_".join([first.__module__.rpartition(".")[2], first.__name__, *(f"{k}{v}" for k, v in constants), digest])
-    names = dict(constants)
+    return "_".join([first.__module__.rpartition(".")[2], first.__name__, *(f"{k}{v}" for k, v in constants), digest])
+
+
+def _parts(laws, texts, label, names):
+    """The parts of loops over these laws by name; beside each law stands its safe form under the name ``safe_...``."""
+    single = names.get("SINGLE", False)
     for name, law in laws.items():
         safe_law = bind(law, SAFE, _out_of_line, _safe_laws)
         names[f"safe_{name}"] = safe_law
-        names[name] = _fast_law(law, single=dict(constants).get("SINGLE", False)) if shows_every_nan(law) else safe_law
+        names[name] = _fast_law(law, single=single) if shows_every_nan(law) else safe_law
     for part in texts.PARTS:
         names[part.__name__] = njit(_template(part, label, names), fastmath=FLAGS, error_model="numpy", nogil=True)
-    with in_folder() as writeable:
-        return njit(
-            _template(getattr(texts, loop), label, names), fastmath=FLAGS, error_model="numpy", nogil=True,
-            cache=cached and writeable, parallel=loop.endswith("parallel"),
-        )  # fmt: skip
+    return names
 
 
 def _fast_law(law, *, single):

@@ -134,26 +134,26 @@ def _libm():
     return {f.__name__: inline(f) for f in texts}
 
 
-def _add(total, weight, terms):
+def add_terms(total, weight, terms):
     """``total + weight * terms`` for tuples, unrolled by type."""
 
 
-@overload(_add, jit_options={"forceinline": True, "fastmath": FLAGS})
-def _add_overload(total, weight, terms):
+@overload(add_terms, jit_options={"forceinline": True, "fastmath": FLAGS})
+def _add_terms(total, weight, terms):
     if len(total) == 1:
         return lambda total, weight, terms: (total[0] + weight * terms[0],)
-    return lambda total, weight, terms: (total[0] + weight * terms[0], *_add(total[1:], weight, terms[1:]))
+    return lambda total, weight, terms: (total[0] + weight * terms[0], *add_terms(total[1:], weight, terms[1:]))
 
 
-def _times(terms, factor):
+def scaled_terms(terms, factor):
     """``factor * terms`` for a tuple, unrolled by type."""
 
 
-@overload(_times, jit_options={"forceinline": True, "fastmath": FLAGS})
-def _times_overload(terms, factor):
+@overload(scaled_terms, jit_options={"forceinline": True, "fastmath": FLAGS})
+def _scaled_terms(terms, factor):
     if len(terms) == 1:
         return lambda terms, factor: (factor * terms[0],)
-    return lambda terms, factor: (factor * terms[0], *_times(terms[1:], factor))
+    return lambda terms, factor: (factor * terms[0], *scaled_terms(terms[1:], factor))
 
 
 def _panel_of(integrand, points, number=float):
@@ -168,14 +168,14 @@ def _panel_of(integrand, points, number=float):
         if len(nodes) == 0:
             return lambda total, middle, half, nodes, weights, parameters: total
         return lambda total, middle, half, nodes, weights, parameters: add_nodes(
-            _add(total, weights[0], integrand(middle + nodes[0] * half, *parameters)),
+            add_terms(total, weights[0], integrand(middle + nodes[0] * half, *parameters)),
             middle, half, nodes[1:], weights[1:], parameters,
         )  # fmt: skip
 
     @inline
     def panel(middle, half, parameters):
-        first = _times(integrand(middle + nodes[0] * half, *parameters), weights[0])
-        return _times(add_nodes(first, middle, half, nodes[1:], weights[1:], parameters), half)
+        first = scaled_terms(integrand(middle + nodes[0] * half, *parameters), weights[0])
+        return scaled_terms(add_nodes(first, middle, half, nodes[1:], weights[1:], parameters), half)
 
     return panel
 
@@ -205,7 +205,7 @@ def _all_panels(integrand, points):
         half = 0.5 * (upper - lower) / count if panels <= MOST_PANELS else math.nan
         total = panel(lower + half, half, parameters)
         for k in range(1, count):
-            total = _add(total, 1.0, panel(lower + (2 * k + 1) * half, half, parameters))
+            total = add_terms(total, 1.0, panel(lower + (2 * k + 1) * half, half, parameters))
         return total
 
     return integrate
