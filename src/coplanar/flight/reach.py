@@ -16,10 +16,13 @@ from coplanar.flight.path import by_launch
 from coplanar.flight.sight import Sight
 from coplanar.flight.state import plain
 from coplanar.laws import flight as laws
+from coplanar.laws.aiming import farthest
 
 if TYPE_CHECKING:
     from coplanar.flight.aiming import Aim
     from coplanar.flight.projectile import Projectile
+
+Row = Any
 
 _climb_height = evaluator(laws.climb_height)
 _miss_across = evaluator(laws.miss_across)
@@ -77,10 +80,20 @@ def furthest(projectile: Projectile, speed: ArrayLike, slope: ArrayLike) -> Reac
     special = upright | weightless
     level = np.where(special, 0.0, alpha)
     sight = Sight(np.cos(level), np.sin(level), np.where(special, 0.0, k), np.where(special, 1.0, g))
-    zenith, most = sight.farthest(v)
+    zenith, most = _farthest(v, sight)
     height = _climb_height(v, np.where(weightless, 0.0, k), np.where(weightless, 1.0, g))
-    distance = np.where(weightless, np.inf, np.where(upright, height, most.distance))
+    distance = np.where(weightless, np.inf, np.where(upright, height, most))
     return Reach(plain(np.where(special, alpha, 0.5 * np.pi - zenith)), plain(distance), plain(alpha))
+
+
+def _farthest(speed: Row, sight: Sight) -> tuple[Row, Row]:
+    """The best angle from the zenith and its range; what the search does not settle, the nested one finds."""
+    zenith, most, _, _, known = farthest(speed, *sight)
+    lost = np.asarray(known) <= 0.0
+    if not lost.any():
+        return zenith, most
+    best, range_ = sight.farthest(speed)
+    return np.where(lost, best, zenith), np.where(lost, range_.distance, most)
 
 
 def most_tolerant(
