@@ -288,7 +288,9 @@ def test_what_has_no_place_in_the_playground_is_refused():
     scenario = load("track-astroid")
     assert opened(scenario)[1]["kd"] == 0.5
     with pytest.raises(InvalidInput, match="place in the playground"):
-        opened(scenario.replaced({"noise": {"position": 0.01, "seed": 1}}))
+        opened(scenario.replaced({"limits": {"acceleration": 0.1}}))
+    with pytest.raises(InvalidInput, match="seed = 100"):
+        opened(scenario.replaced({"noise": {"position": 0.01, "seed": 100}}))
     with pytest.raises(InvalidInput, match=r"0\.1 to 200"):
         opened(scenario.replaced({"controller.kp": 400.0}))
     with pytest.raises(InvalidInput, match="two or three revolute links"):

@@ -64,6 +64,7 @@ class Answer:
         readouts: Numbers beside the picture.
         sentences: What the library says of it.
         series: Curves under the picture.
+        legends: What the lines of a picture are, by its name.
         complete: Whether nothing has been left out for the sake of time.
     """
 
@@ -72,6 +73,7 @@ class Answer:
     readouts: list[dict[str, Any]] = field(default_factory=list)
     sentences: list[dict[str, str]] = field(default_factory=list)
     series: list[dict[str, Any]] = field(default_factory=list)
+    legends: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
     complete: bool = True
 
     def read(self, key: str, label: str, value: float | str, unit: str = "", group: str = "") -> None:
@@ -84,6 +86,11 @@ class Answer:
     def say(self, tone: str, text: str) -> None:
         """Add a sentence in one of ``TONES``."""
         self.sentences.append({"tone": tone, "text": text})
+
+    def name(self, label: str, role: str, *, dashed: bool = False, picture: str = "main") -> None:
+        """Add a line to the legend of a picture."""
+        entry = {"label": label, "role": role} | ({"dashed": True} if dashed else {})
+        self.legends.setdefault(picture, []).append(entry)
 
     def plot(
         self,
@@ -115,6 +122,7 @@ class Answer:
             "readouts": self.readouts,
             "sentences": self.sentences,
             "series": self.series,
+            "legends": self.legends,
         }
 
 

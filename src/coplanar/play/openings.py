@@ -71,22 +71,34 @@ def _curve(part: Any) -> State:
 
 
 def _track(scenario: Any) -> State:
-    controller, integrator = scenario.controller, scenario.integrator
-    if controller.type != "point-tracker" or scenario.reference is None:
-        raise InvalidValue("controller", controller.type, "a point-tracker with a reference")
-    state = _curve(scenario.reference.curve)
-    state |= {"px": controller.point[0], "py": controller.point[1]}
-    state |= {key: getattr(controller, key) for key in ("kp", "kd", "ki", "feedforward", "error_against")}
+    integrator, loop = scenario.integrator, scenario.build()
+    state = _polar(loop.controller) if scenario.controller.type == "polar" else _tracker(scenario)
     state |= {"method": integrator.method, "step": integrator.step, "duration": scenario.duration}
     if scenario.limits is not None:
         limits = scenario.limits
         state |= {"limited": True, "mode": limits.mode}
         given = {"v_limit": limits.v, "omega_limit": limits.omega}
         state |= {key: value for key, value in given.items() if value is not None}
-    start = scenario.build().start
-    if start is not None:
+    if loop.noise is not None:
+        spreads = {f"noise_{key}": getattr(loop.noise, key) for key in ("position", "heading", "v", "omega")}
+        state |= {"noisy": True, **spreads, "seed": loop.noise.seed}
+    if loop.start is not None:
+        start = loop.start
         state |= {"start": "free", "start_x": start.x, "start_y": start.y, "heading": start.theta}
     return state
+
+
+def _tracker(scenario: Any) -> State:
+    controller = scenario.controller
+    state = _curve(scenario.reference.curve) | {"px": controller.point[0], "py": controller.point[1]}
+    return state | {key: getattr(controller, key) for key in ("kp", "kd", "ki", "feedforward", "error_against")}
+
+
+def _polar(controller: Any) -> State:
+    x, y, heading = controller.goal.parts
+    state = {"controller": "polar", "goal_x": x, "goal_y": y, "goal_heading": heading}
+    keys = ("k_rho", "k_alpha", "k_beta", "form", "direction", "arrive_within")
+    return state | {key: getattr(controller, key) for key in keys}
 
 
 def _wheels(scenario: Any) -> State:

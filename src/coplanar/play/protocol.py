@@ -14,7 +14,8 @@ Every request carries the whole state of its tab, so that an answer depends on n
             "handles": [{"id", "label", "at": [x, y], "picture", "keys": {"step", "unit"}, "value"}],
             "readouts": [{"key", "label", "value", "unit", "group", "number"}],
             "sentences": [{"tone": "good|note|warn|no", "text"}],
-            "series": [{"title", "unit", "x": {"label", "values"}, "lines": [{"label", "values", "role"}]}]}
+            "series": [{"title", "unit", "x": {"label", "values"}, "lines": [{"label", "values", "role"}]}],
+            "legends": {"main": [{"label", "role", "dashed"}]}}
         ``complete`` is false where a live answer left something out: ask again with the returned state, not live, when
         the hand rests. ``value`` of a readout is text; ``number``, where present, the number that it was made from.
         A scene is described by ``coplanar.viz.scene``. ``null`` among the values of a series is a gap. A series has

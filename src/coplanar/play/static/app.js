@@ -176,22 +176,26 @@ class App {
     if (!control) return;
     const { key, most = 400, reach = 20, picture = "main" } = control;
     const wanted = matters(control, state) && (state[key].length === 0 || this.inking);
-    const done = (/** @type {number[][]} */ points) => {
+    const done = (/** @type {number[][]} */ points, /** @type {boolean} */ byKeys) => {
       this.inking = false;
+      if (byKeys) byId(`control-${key}`, HTMLElement).focus({ preventScroll: true });
       this.desk.edit(key, points, false);
     };
-    this.stage.draw(picture, wanted ? { most, reach, done } : undefined);
+    this.stage.draw(picture, wanted ? { most, reach, eager: this.eager, done } : undefined);
+    this.eager = false;
   }
 
-  inking = false;
+  inking = false; // a new line is waited for
+  eager = false; // and its pen has not been given the focus yet
 
   /**
+   * Something was set in the panel.
    * @param {string} key
    * @param {any} value
    * @param {boolean} live
    */
   edit(key, value, live) {
-    this.inking = value === "draw";
+    this.inking = this.eager = value === "draw";
     if (this.inking) this.desk.edit(key, [], false);
     else this.desk.edit(key, value, live);
   }

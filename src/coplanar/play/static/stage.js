@@ -5,6 +5,7 @@ import { make, write } from "./elements.js";
 import { Framing } from "./framing.js";
 import { Handles } from "./handles.js";
 import { Ink } from "./ink.js";
+import { Legend } from "./legend.js";
 import { View } from "./view.js";
 
 /**
@@ -12,7 +13,7 @@ import { View } from "./view.js";
  * @typedef {import("./types.js").SceneData} SceneData
  * @typedef {import("./types.js").Handle} Handle
  * @typedef {{name: string, figure: HTMLElement, canvas: HTMLCanvasElement, handles: Handles, ink: Ink,
- *   framing: Framing, scene: SceneData}} Picture
+ *   framing: Framing, legend: Legend, scene: SceneData}} Picture
  */
 
 export class Stage {
@@ -50,6 +51,7 @@ export class Stage {
       picture.scene = scene;
       const places = shown.handles.filter((handle) => handle.picture === name).map((handle) => handle.at);
       picture.framing.take(scene, places, this.held() || picture.ink.wanted !== undefined);
+      picture.legend.show(shown.legends[name] ?? []);
       picture.canvas.setAttribute("aria-label", name === "main" ? about : captioned(name));
     }
     this.handles = shown.handles;
@@ -88,7 +90,7 @@ export class Stage {
   /**
    * Let a line be drawn on a picture, or no longer.
    * @param {string} name
-   * @param {{most: number, reach: number, done: (points: number[][]) => void} | undefined} wanted
+   * @param {import("./ink.js").Wanted | undefined} wanted
    */
   draw(name, wanted) {
     for (const picture of this.pictures.values()) {
@@ -116,18 +118,19 @@ export class Stage {
     const canvas = make("canvas", { role: "img" });
     const over = make("div", { class: "handles" });
     const caption = make("figcaption");
-    const figure = make("figure", { class: "picture" }, canvas, over, caption);
+    const legend = new Legend();
+    const figure = make("figure", { class: "picture" }, canvas, over, caption, legend.root);
     figure.dataset.picture = name;
     write(caption, name === "main" ? "" : captioned(name));
     caption.hidden = name === "main";
-    const ink = new Ink(canvas, () => this.redraw());
+    const ink = new Ink(canvas, over, () => this.redraw());
     const handles = new Handles(over, {
       drag: (id, to) => this.moves.drag(id, to),
       nudge: (id, by) => this.moves.nudge(id, by),
       leave: () => this.moves.leave(),
     });
     const framing = new Framing(() => this.redraw());
-    const picture = { name, figure, canvas, handles, ink, framing, scene };
+    const picture = { name, figure, canvas, handles, ink, framing, legend, scene };
     this.pictures.set(name, picture);
     (name === "main" ? this.main : this.extras).append(figure);
     this.sizes.observe(canvas);

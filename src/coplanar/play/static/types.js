@@ -51,6 +51,8 @@
  * @property {boolean} [log]
  */
 
+/** @typedef {{label: string, role: string, dashed?: boolean}} Line A line of a picture, as its legend names it. */
+
 /**
  * @typedef {object} Shown The answer to "show".
  * @property {string} tab
@@ -61,6 +63,7 @@
  * @property {Readout[]} readouts
  * @property {Sentence[]} sentences
  * @property {Series[]} series
+ * @property {Record<string, Line[]>} legends
  */
 
 /** @typedef {{sentence: string, key: string, given: any, needed: string}} Refusal */

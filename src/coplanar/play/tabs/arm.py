@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import Any, ClassVar
 
 import numpy as np
 
 from coplanar import checks
 from coplanar.arms import Arm, Solution
+from coplanar.curves import Curve
 from coplanar.play.answer import Answer
 from coplanar.play.controls import AnyControl, Choice, Slider, State, Switch, clipped
 from coplanar.play.tabs import arm_copy, arm_trace, arm_view, strokes
@@ -17,6 +19,7 @@ from coplanar.tracing import Trace, trace
 LIVE_ROWS = 61  # of a trace, while something is dragged
 LIVE_STEPS = 5  # of resolved rates, by which three limited links follow the hand
 TURN = 2.0 * math.pi
+KEPT = 64  # arms and solutions
 
 
 def _joint(i: int, q: float, limit: float) -> tuple[Slider, Slider, Slider]:
@@ -76,21 +79,24 @@ class ArmTab:
         checks.choice("handle", handle, ("tool", "curve"))
         names = ("curve_x", "curve_y") if handle == "curve" else ("target_x", "target_y")
         state = state | {name: clipped(self.controls, name, v) for name, v in zip(names, to, strict=True)}
-        if _is_slow(state) and handle == "tool":
-            return _followed(state | {"follow": "target"})
+        if _is_slow(state):
+            return state if handle == "curve" else _followed(state | {"follow": "target"})
         return _settled(state, names[0])
 
     def show(self, state: State, *, live: bool) -> Answer:
         """The arm where it is, or its way along the curve."""
         arm, answer = arm_of(state), Answer()
-        followed = self._trace(state, arm, live)
-        answer.complete = not (live and (state["links"] == "3" or followed is not None))
-        if followed is not None:
-            arm_trace.show(answer, followed, state)
-        else:
-            aimed = state["follow"] == "target" and not (live and _is_slow(state))
-            solution = solved(arm, state) if aimed else None
-            arm_view.show(answer, (arm, joints_of(state)), solution, state, live=live)
+        curve = strokes.curve_of(state)
+        answer.complete = not (live and (state["links"] == "3" or curve is not None))
+        lost = None if curve is None or live or not _is_slow(state) else _lost(arm, curve, state)
+        if curve is not None and lost is None and not (live and arm.n == 3):
+            arm_trace.show(answer, self._trace(state, arm, curve, live), state)
+            return answer
+        aimed = state["follow"] == "target" and not (live and _is_slow(state))
+        solution = solved(arm, state) if aimed else None
+        arm_view.show(answer, (arm, joints_of(state)), solution, state, live=live)
+        if curve is not None:
+            arm_trace.outline(answer, curve, state, lost)
         return answer
 
     def python(self, state: State) -> str:
@@ -101,11 +107,8 @@ class ArmTab:
         """The same as a scenario file holds it."""
         return arm_copy.scenario(state, arm_of(state), strokes.curve_of(state))
 
-    def _trace(self, state: State, arm: Arm, live: bool) -> Trace | None:
-        """The arm along the curve; None without one, and for three links while something is dragged."""
-        curve = strokes.curve_of(state)
-        if curve is None or (live and arm.n == 3):
-            return None
+    def _trace(self, state: State, arm: Arm, curve: Curve, live: bool) -> Trace:
+        """The arm along the curve."""
         singular, rows = state["at_singular"], round(state["points"])
         return trace(arm, curve, min(rows, LIVE_ROWS) if live else rows, near=joints_of(state), at_singular=singular)
 
@@ -113,8 +116,13 @@ class ArmTab:
 def arm_of(state: State) -> Arm:
     """The arm of a state."""
     n = int(state["links"])
-    limits = [(state[f"lower{i}"], state[f"upper{i}"]) for i in range(1, n + 1)] if state["limited"] else None
-    return Arm([state[f"l{i}"] for i in range(1, n + 1)], limits=limits)
+    limits = tuple((state[f"lower{i}"], state[f"upper{i}"]) for i in range(1, n + 1)) if state["limited"] else None
+    return _arm(tuple(state[f"l{i}"] for i in range(1, n + 1)), limits)
+
+
+@lru_cache(maxsize=KEPT)
+def _arm(links: tuple[float, ...], limits: tuple[tuple[float, float], ...] | None) -> Arm:
+    return Arm(links, limits=limits)
 
 
 def joints_of(state: State) -> np.ndarray:
@@ -126,7 +134,22 @@ def solved(arm: Arm, state: State) -> Solution:
     """Joints for the target, near those of the state and on its elbow."""
     elbow = int(state["elbow"]) if arm.n == 2 else None
     target = (state["target_x"], state["target_y"])
-    return arm.inverse(target, near=joints_of(state), elbow=elbow)
+    return _solved(tuple(arm.links), arm.limits, target, tuple(joints_of(state).tolist()), elbow)
+
+
+@lru_cache(maxsize=KEPT)
+def _solved(
+    links: tuple[float, ...], limits: Any, target: tuple[float, float], near: tuple[float, ...], elbow: int | None
+) -> Solution:
+    """Kept, because the same one settles the state and is shown, and stays where something else is dragged."""
+    return _arm(links, limits).inverse(target, near=near, elbow=elbow)
+
+
+def _lost(arm: Arm, curve: Curve, state: State) -> np.ndarray | None:
+    """Where no posture within the limits reaches the curve, shape (n, 2): a trace would search long at each of them."""
+    points = curve.position(curve.parameters(round(state["points"])))
+    reached = np.asarray(arm.inverse(points).reached)
+    return None if reached.all() else points[~reached]
 
 
 def _settled(state: State, changed: str) -> State:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from coplanar.curves import Curve
 from coplanar.play.answer import Answer, Handle
 from coplanar.play.controls import State
 from coplanar.play.tabs import arm_view
@@ -25,14 +26,31 @@ def show(answer: Answer, followed: Trace, state: State) -> None:
         scene = scene.curve(_part(followed, failure), role="no")
     scene = scene.linkage(followed.arm.points(followed.q)).trail(run.stacked("x", "y"))
     answer.pictures["main"] = scene
-    if state["curve"] != "stroke":
-        centre = (state["curve_x"], state["curve_y"])
-        answer.handles.append(Handle("curve", "Curve: drag its centre", centre))
+    _handle(answer, state)
     joints = {f"q{i}": run[f"q{i}"] for i in range(1, followed.arm.n + 1)}
     answer.plot("Joints", "rad", ("time [s]", run.t), joints)
     answer.plot("Distance from the curve", "m", ("time [s]", run.t), {"error": followed.position_error()})
     _read(answer, followed)
     _say(answer, followed)
+
+
+def outline(answer: Answer, curve: Curve, state: State, lost: np.ndarray | None) -> None:
+    """The curve alone over an arm that stands still, with the places that no posture reaches, shape (n, 2)."""
+    scene = answer.pictures["main"].curve(curve.position(curve.parameters(WANTED)), dashed=True)
+    if lost is not None:
+        scene = scene.cross(lost.reshape(1, -1), role="no", size=4.0)
+        share = 100.0 * len(lost) / round(state["points"])
+        answer.sentences = []
+        answer.say("no", f"no posture within the limits reaches {share:.3g} % of the curve: the arm cannot follow it")
+    answer.pictures["main"] = scene
+    answer.handles = []
+    _handle(answer, state)
+
+
+def _handle(answer: Answer, state: State) -> None:
+    if state["curve"] != "stroke":
+        centre = (state["curve_x"], state["curve_y"])
+        answer.handles.append(Handle("curve", "Curve: drag its centre", centre))
 
 
 def _part(followed: Trace, failure: Failure) -> np.ndarray:

@@ -1,66 +1,63 @@
-"""What a run of the point tracker looks like: path, poles, commands, errors."""
+"""What a run looks like: path, poles, commands, errors."""
 
 from __future__ import annotations
 
 import math
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from coplanar.control import PointTracker, Stability, StabilityReport
-from coplanar.curves import HeldPoint, Reference
+from coplanar.control import PointTracker, PolarController, Stability, StabilityReport
+from coplanar.curves import Reference
 from coplanar.play.answer import Answer, Handle
 from coplanar.play.controls import State
+from coplanar.play.tabs import views
+from coplanar.play.tabs.drive_loop import AnyController, AnyReference, report_of
 from coplanar.run import Run, RunStatus
-from coplanar.se2 import Pose
+from coplanar.se2 import Pose, wrap_angle
 from coplanar.viz.scene import Scene
 
 FRAMES = 201  # of the animation and the series: samples of the run
 LIVE_FRAMES = 81  # while something is dragged
-KEPT_REPORTS = 64
 SPEEDS = 2001  # samples of the reference, to find how fast it moves
 WANTED = 161  # points of the reference as it is drawn
 FAR = 50.0  # times half the view: a path that goes further is cut there
 EDGE = 1.28  # a pole further out is drawn at the edge of its picture
 ROBOT = 0.08  # radius of the disc that is drawn, over half the view
 ROLES = {"euler": "fifth", "rk4": "fourth", "exact": "third", "midpoint": "second", "heun": "second"}
+NAMES = {"euler": "Euler", "rk4": "RK4", "exact": "exact arcs", "midpoint": "midpoint", "heun": "Heun"}
 TONES = {Stability.STABLE: "good", Stability.BOUNDARY: "warn", Stability.UNSTABLE: "no"}
 
-Follower = tuple[PointTracker, Reference | HeldPoint, Pose]
+Follower = tuple[AnyController, AnyReference, Pose]
 
 
 def show(answer: Answer, state: State, follower: Follower, runs: dict[str, Run], *, live: bool) -> None:
     """Everything about one state; the first run is the one of the chosen method."""
-    tracker, reference, start = follower
+    controller, reference, start = follower
     half = half_view(state)
     chosen, *_ = runs.values()
-    speed = top_speed(reference, state["duration"])
-    report = _report((state["px"], state["py"]), (state["kp"], state["kd"], state["ki"]), tracker.feedforward,
-                     tracker.error_against, state["step"], state["method"], speed)  # fmt: skip
+    report = report_of(state, top_speed(reference, state["duration"]))
     rows = shown_rows(chosen, half, LIVE_FRAMES if live else FRAMES)
     answer.pictures["main"] = _picture(follower, half, chosen, runs, rows)
     answer.pictures["poles"] = poles(report)
+    for method in runs if len(runs) > 1 else ():
+        answer.name(NAMES[method], ROLES[method])
     _handles(answer, state, start, half)
     _say(answer, report, chosen, rows, state)
     _read(answer, report, chosen)
+    if isinstance(controller, PolarController):
+        turned = wrap_angle(float(chosen["theta"][-1]) - float(controller.goal.theta))
+        answer.read("heading_error", "heading less the goal's, at the end", turned, "rad", "Run")
     _plot(answer, chosen, runs, rows)
 
 
 def half_view(state: State) -> float:
-    """Half the width of the view [m]; it depends on the size of the reference alone."""
+    """Half the width of the view [m]; it depends on the size of the reference alone, or on where start and goal are."""
+    if state["controller"] == "polar":
+        ends = [(state[f"{end}_x"], state[f"{end}_y"]) for end in ("start", "goal")]
+        return views.half_width(np.array(ends), 2.0)
     named = state["curve"] not in ("stroke", "point")
     return max(1.7 * float(state["size"]), 0.8) if named else 2.0
-
-
-@lru_cache(maxsize=KEPT_REPORTS)
-def _report(
-    point: tuple[float, float], gains: tuple[float, float, float], ahead: bool, against: str, step: float,
-    method: str, speed: float,
-) -> StabilityReport:  # fmt: skip
-    """What the loop will do; kept, because a drag of the reference or the start asks for the same one every frame."""
-    tracker = PointTracker(point, *gains, feedforward=ahead, error_against=against)
-    return tracker.stability(step, method=method, speed=speed)
 
 
 def shown_rows(run: Run, half: float, frames: int = FRAMES) -> np.ndarray:
@@ -89,10 +86,8 @@ def poles(report: StabilityReport) -> Scene:
 
 
 def _picture(follower: Follower, half: float, run: Run, runs: dict[str, Run], rows: np.ndarray) -> Scene:
-    tracker, reference, _ = follower
-    poses = run.poses
-    table = poses.as_array()[rows]
-    point = np.column_stack(Pose(*table.T).act(tracker.px, tracker.py))
+    controller, reference, _ = follower
+    table = run.poses.as_array()[rows]
     scene = Scene(run.t[rows], view=(-half, half, -half, half))
     if isinstance(reference, Reference):
         scene = scene.curve(reference.curve.position(reference.curve.parameters(WANTED)), dashed=True)
@@ -102,26 +97,39 @@ def _picture(follower: Follower, half: float, run: Run, runs: dict[str, Run], ro
             scene = scene.curve(other.stacked("x", "y")[drawn], role=ROLES[method])
     around = np.linspace(0.0, 2.0 * np.pi, 33)
     disc = ROBOT * half * np.column_stack((np.cos(around), np.sin(around)))
+    if not isinstance(controller, PointTracker):
+        goal = controller.goal.as_array()
+        return scene.body(goal, disc, role="target", dashed=True).trail(table[:, :2]).body(table, disc)
+    point = np.column_stack(Pose(*table.T).act(controller.px, controller.py))
     scene = scene.trail(point).body(table, disc)
-    levers = [0.0, 0.0, float(tracker.px), float(tracker.py)]
+    levers = [0.0, 0.0, float(controller.px), float(controller.py)]
     scene = scene.carried(table, levers, role="muted", width=1.5).moving_point(point, role="trail", size=4.0)
-    return scene.moving_point(reference.position(run.t[rows]), size=4.0)
+    return scene if reference is None else scene.moving_point(reference.position(run.t[rows]), size=4.0)
 
 
 def _handles(answer: Answer, state: State, start: Pose, half: float) -> None:
-    x, y, theta = (float(part) for part in start.parts)
     reach = 2.2 * ROBOT * half
-    nose = (x + reach * math.cos(theta), y + reach * math.sin(theta))
-    if state["curve"] != "stroke":
+    if state["controller"] == "polar":
+        goal = state["goal_x"], state["goal_y"]
+        answer.handles.append(Handle("goal", "Goal", goal))
+        answer.handles.append(_turning("goal_turn", "Heading of the goal", goal, state["goal_heading"], reach))
+    elif state["curve"] != "stroke":
         label = "Target of P" if state["curve"] == "point" else "Curve: drag its centre"
         answer.handles.append(Handle("curve", label, (state["curve_x"], state["curve_y"])))
+    x, y, theta = (float(part) for part in start.parts)
     answer.handles.append(Handle("start", "Start of the robot", (x, y)))
-    said = f"{math.degrees(theta):.0f} degrees"
-    answer.handles.append(Handle("heading", "Heading at the start", nose, step=0.05, about=(x, y), value=said))
+    answer.handles.append(_turning("heading", "Heading at the start", (x, y), theta, reach))
 
 
-def top_speed(reference: Reference | HeldPoint, duration: float) -> float:
+def _turning(name: str, label: str, about: tuple[float, float], theta: float, reach: float) -> Handle:
+    nose = (about[0] + reach * math.cos(theta), about[1] + reach * math.sin(theta))
+    return Handle(name, label, nose, step=0.05, about=about, value=f"{math.degrees(theta):.0f} degrees")
+
+
+def top_speed(reference: AnyReference, duration: float) -> float:
     """Of the reference, over the whole run [m/s]."""
+    if reference is None:
+        return 0.0
     return float(np.hypot(*reference.velocity(np.linspace(0.0, duration, SPEEDS)).T).max())
 
 
@@ -138,7 +146,7 @@ def _say(answer: Answer, report: StabilityReport, run: Run, rows: np.ndarray, st
         share = float((np.abs(run.commands[1:]) >= limits).any(axis=-1).mean())
         if share > 0.0:
             answer.say("warn", f"the limits hold the command back in {100.0 * share:.3g} % of the steps")
-    if state["curve"] == "stroke" and not state["stroke"]:
+    if state["controller"] == "point" and state["curve"] == "stroke" and not state["stroke"]:
         answer.say("note", "draw a curve for P to follow")
 
 
@@ -149,7 +157,7 @@ def _read(answer: Answer, report: StabilityReport, run: Run) -> None:
         for i, pole in enumerate([] if found is None else found.tolist(), 1):
             answer.read(f"{name.replace(' ', '_')}_{i}", f"{name} {i}", _complex(pole), "", "Stability")
     with np.errstate(all="ignore"):
-        off = np.hypot(*run.errors.T)
+        off = run["rho"] if "rho" in run.names.errors else np.hypot(*run.errors.T)
         largest = {"v": np.abs(run["v"]).max(), "omega": np.abs(run["omega"]).max()}
     answer.read("last_error", "error at the end", float(off[-1]), "m", "Run")
     answer.read("largest_error", "largest error", float(off.max()), "m", "Run")
@@ -163,7 +171,12 @@ def _plot(answer: Answer, run: Run, runs: dict[str, Run], rows: np.ndarray) -> N
     time = ("time [s]", run.t[rows])
     answer.plot("Forward velocity", "m/s", time, {"v": run["v"][rows]})
     answer.plot("Turn rate", "rad/s", time, {"omega": run["omega"][rows]})
-    answer.plot("Error", "m", time, {"ex": run["ex"][rows], "ey": run["ey"][rows]})
+    if "rho" in run.names.errors:
+        answer.plot("Distance to the goal", "m", time, {"rho": run["rho"][rows]})
+        bearings = {"alpha, of the goal": run["alpha"][rows], "beta, of its heading": run["beta"][rows]}
+        answer.plot("Bearings", "rad", time, bearings)
+    else:
+        answer.plot("Error", "m", time, {"ex": run["ex"][rows], "ey": run["ey"][rows]})
     if "exact" in runs and len(runs) > 1:
         apart = {method: _apart(other, runs["exact"], rows) for method, other in runs.items() if method != "exact"}
         answer.plot("Distance from the exact run", "m", time, apart, roles=ROLES)

@@ -43,6 +43,10 @@ def show(answer: Answer, state: State, count: int, *, live: bool) -> None:
     paths = {method: problem.points(method, count) for method in shown}
     answer.complete = len(shown) == len(METHODS_SHOWN)
     answer.pictures["main"] = _picture(state, t, exact, paths)
+    answer.name("exact", "third")
+    for method, points in paths.items():
+        if points is not None:
+            answer.name(NAMES[method], ROLES[method])
     if state["motion"] == "shot":
         _launch(answer, state, exact)
     _distances(answer, paths, steps, at_steps)

@@ -82,8 +82,9 @@ class MotionTab:
     def show(self, state: State, *, live: bool) -> Answer:
         """The path, its velocities, and what integrators make of it."""
         _check_step(state)
-        answer = Answer(complete=not (live and state["compare"]))
-        motion_view.show(answer, segments_of(state), start_of(state), state, live=live)
+        segments = segments_of(state)
+        answer = Answer(complete=not (live and state["compare"] and motion_view.is_long(segments, state)))
+        motion_view.show(answer, segments, start_of(state), state, live=live)
         return answer
 
     def python(self, state: State) -> str:

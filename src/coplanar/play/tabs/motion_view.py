@@ -17,7 +17,13 @@ FRAMES = 201
 DRAWN_STEPS = 200  # of an integrator: of more every other one is drawn
 LIVE_FRAMES = 81
 STEEPEST = 1e3  # [1/m] a curvature above this is drawn as a gap: the path turns on the spot
+LIVE_STEPS = 60  # of an integrator, while something is dragged: of more none is drawn until the hand rests
 ROLES = {"euler": "fifth", "rk4": "fourth"}
+SHOWN = {"euler": "Euler", "rk4": "RK4"}
+CURVES = {
+    "rest": "at rest", "line": "line", "spin": "turn on the spot", "arc": "arc", "circle": "arc",
+    "clothoid": "clothoid", "general": "general curve",
+}  # fmt: skip
 NAMES = {
     "rest": "rests",
     "line": "is a straight line",
@@ -35,7 +41,7 @@ def show(answer: Answer, segments: list[Segment], start: Pose, state: State, *, 
     t = np.linspace(0.0, program.duration, LIVE_FRAMES if live else FRAMES)
     table = program.pose(start, t).as_array()
     stepped = {}
-    if state["compare"] and not live:
+    if state["compare"] and not (live and is_long(segments, state)):
         compared = Comparison(program, start, tuple(ROLES), [state["step"]])
         stepped = {method: compared.path(method, state["step"]) for method in ROLES}
     half = views.half_width(table[:, :2], 2.0)
@@ -51,11 +57,25 @@ def show(answer: Answer, segments: list[Segment], start: Pose, state: State, *, 
     size = 0.06 * half
     robot = size * np.array([(1.2, 0.0), (-0.8, 0.8), (-0.5, 0.0), (-0.8, -0.8)])
     answer.pictures["main"] = scene.trail(table[:, :2]).body(table, robot)
+    _legend(answer, segments, stepped)
     _handles(answer, start, program.end(start), half)
     _plot(answer, program, t)
     _say(answer, segments)
     _read(answer, program, segments, start)
     _compare(answer, program, start, stepped)
+
+
+def is_long(segments: list[Segment], state: State) -> bool:
+    """Whether the integrators take more steps than there is time for in a frame."""
+    return sum(segment.duration for segment in segments) > LIVE_STEPS * state["step"]
+
+
+def _legend(answer: Answer, segments: list[Segment], stepped: dict[str, tuple[np.ndarray, Pose]]) -> None:
+    """The curve by its own name, and the integrators."""
+    kinds = [CURVES[one.kind] + (" with a cusp" if math.isfinite(one.cusp_time) else "") for one in segments]
+    answer.name("exact, " + ", ".join(dict.fromkeys(kinds)), "trail")
+    for method, (every, _) in stepped.items():
+        answer.name(f"{SHOWN[method]}, {len(every) - 1} steps", ROLES[method], dashed=True)
 
 
 def _handles(answer: Answer, start: Pose, end: Pose, half: float) -> None:

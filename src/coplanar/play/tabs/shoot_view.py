@@ -100,12 +100,15 @@ def _until(t: np.ndarray, arc: Arc, values: np.ndarray) -> np.ndarray:
 
 
 def _with_envelope(answer: Answer, scene: Scene, arcs: dict[str, Arc], state: State, live: bool) -> Scene:
+    for name in arcs:
+        answer.name(f"{name} arc" if len(arcs) > 1 else "the arc", ROLES[name])
     if not state["envelope"] or not arcs:
         return scene
     points = envelope_of.within(live, state["mass"], state["drag"], state["gravity"], float(arcs["low"].speed))
     if points is None:
         answer.complete = False
         return scene
+    answer.name("limit of what is in reach", "muted", dashed=True)
     return scene.curve(points, role="muted", dashed=True)
 
 

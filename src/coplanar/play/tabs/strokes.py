@@ -39,7 +39,8 @@ def controls(
         Slider("tilt", "Tilt", group="Curve", unit="rad", low=-3.15, high=3.15, step=0.01, default=0.0,
                only={"curve": ("ellipse", "lemniscate", "astroid", "line")}),
         Stroke("stroke", "Draw", group="Curve", only={"curve": ("stroke",)},
-               help="Draw on the picture; a smooth curve through the points is followed."),
+               help="Draw on the picture with mouse, finger or pen; a smooth curve through the points is followed. "
+                    "By keys: the arrows move the pen, further with Shift; Space or Enter puts it down and lifts it."),
     )  # fmt: skip
 
 
