@@ -177,6 +177,7 @@ class Rows(Control):
         most: How many rows at most.
         row: What one row is called.
         least: How many rows at least.
+        first: The number of the first row.
     """
 
     fields: tuple[Slider | Choice | Switch, ...]
@@ -184,6 +185,7 @@ class Rows(Control):
     most: int
     row: str
     least: int = 1
+    first: int = 1
 
     def checked(self, value: Any) -> list[State]:
         """The rows, missing fields filled with their defaults.
@@ -199,7 +201,9 @@ class Rows(Control):
     def as_mapping(self) -> dict[str, Any]:
         """The control as the page reads it."""
         fields = [one.as_mapping() for one in self.fields]
-        return self.described("list", fields=fields, min=self.least, max=self.most, row=self.row, default=self.default)
+        return self.described(
+            "list", fields=fields, min=self.least, max=self.most, row=self.row, first=self.first, default=self.default
+        )
 
 
 AnyControl = Slider | Choice | Switch | Stroke | Rows

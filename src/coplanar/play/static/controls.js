@@ -83,7 +83,7 @@ function rows(control, report) {
   let values = [];
   /** @type {{control: Control, widget: Widget}[][]} */
   let parts = [];
-  const { fields = [], row = "row", min = 1, max = 8 } = control;
+  const { fields = [], row = "row", first = 1, min = 1, max = 8 } = control;
   const list = make("div", { class: "rows" });
   const add = make("button", { type: "button", class: "wide" }, `Add a ${row}`);
   const count = make("p", { class: "help" });
@@ -92,8 +92,9 @@ function rows(control, report) {
   /** @param {number} i */
   const build = (i) => {
     const take = make("button", { type: "button", class: "reset" }, "\u00d7");
-    take.setAttribute("aria-label", `Take away ${row} ${i + 1}`);
-    take.title = `Take away ${row} ${i + 1}`;
+    const called = `${row} ${i + first}`;
+    take.setAttribute("aria-label", `Take away ${called}`);
+    take.title = `Take away ${called}`;
     take.addEventListener("click", () => report([...values.slice(0, i), ...values.slice(i + 1)], false));
     take.classList.toggle("idle", values.length <= min);
     const inside = fields.map((field) => ({
@@ -103,8 +104,8 @@ function rows(control, report) {
         report([...values.slice(0, i), changed, ...values.slice(i + 1)], live);
       }),
     }));
-    const head = make("div", { class: "row" }, make("h4", {}, `${row} ${i + 1}`), take);
-    const name = { class: "one", role: "group", "aria-label": `${row} ${i + 1}` };
+    const head = make("div", { class: "row" }, make("h4", {}, called), take);
+    const name = { class: "one", role: "group", "aria-label": called };
     return { inside, element: make("div", name, head, ...inside.map((part) => part.widget.element)) };
   };
 

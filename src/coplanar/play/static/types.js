@@ -25,6 +25,7 @@
  * @property {string} [picture]
  * @property {Control[]} [fields]
  * @property {string} [row]
+ * @property {number} [first]
  */
 
 /** @typedef {{name: string, title: string, about: string, controls: Control[]}} Tab */

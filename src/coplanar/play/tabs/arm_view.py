@@ -129,9 +129,7 @@ def _say(answer: Answer, arm: Arm, q: np.ndarray, solution: Solution | None) -> 
         if fine and arm.n == 2 and not free:
             _say_branches(answer, solution)
         if fine and solution.conditioning() < NEARLY_SINGULAR:
-            answer.say(
-                "warn", f"nearly singular: a millimetre at the tool is {_sensitivity(solution):.3g} rad in the joints"
-            )
+            answer.say("warn", _near_singular(solution))
     for i, outside in enumerate(((q < arm.lower) | (q > arm.upper)).tolist(), 1):
         if outside and solution is None:
             answer.say("no", f"joint {i} is beyond its limit")
@@ -145,6 +143,8 @@ def _say_branches(answer: Answer, solution: Solution) -> None:
         answer.say("note", "the limits leave one of the two postures")
 
 
-def _sensitivity(solution: Solution) -> float:
+def _near_singular(solution: Solution) -> str:
     value = solution.singular_value()
-    return 1e-3 / value if value > 0.0 else math.inf
+    if 1e-3 < 10.0 * value * math.pi:  # less than ten half turns
+        return f"nearly singular: a millimetre at the tool is {1e-3 / value:.3g} rad in the joints"
+    return "singular: there is a direction in which no rates of the joints move the tool"

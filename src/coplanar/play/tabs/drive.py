@@ -49,7 +49,7 @@ class DriveTab:
     name: ClassVar[str] = "drive"
     title: ClassVar[str] = "Drive"
     about: ClassVar[str] = (
-        "A point on the robot follows a curve, or the robot drives to a pose. The poles say what the gains will do."
+        "A point follows a curve, or the robot drives to a pose; the poles foretell what gains do."
     )
     controls: ClassVar[tuple[AnyControl, ...]] = (
         Choice("controller", "The robot", group="Controller", default="point",

@@ -40,8 +40,7 @@ def show(answer: Answer, state: State, follower: Follower, runs: dict[str, Run],
     rows = shown_rows(chosen, half, LIVE_FRAMES if live else FRAMES)
     answer.pictures["main"] = _picture(follower, half, chosen, runs, rows)
     answer.pictures["poles"] = poles(report)
-    for method in runs if len(runs) > 1 else ():
-        answer.name(NAMES[method], ROLES[method])
+    _legend(answer, state, runs)
     _handles(answer, state, start, half)
     _say(answer, report, chosen, rows, state)
     _read(answer, report, chosen)
@@ -49,6 +48,15 @@ def show(answer: Answer, state: State, follower: Follower, runs: dict[str, Run],
         turned = wrap_angle(float(chosen["theta"][-1]) - float(controller.goal.theta))
         answer.read("heading_error", "heading less the goal's, at the end", turned, "rad", "Run")
     _plot(answer, chosen, runs, rows)
+
+
+def _legend(answer: Answer, state: State, runs: dict[str, Run]) -> None:
+    """Of the integrators, where there are several."""
+    if len(runs) > 1:
+        way = "the robot" if state["controller"] == "polar" else "P"
+        answer.name(f"way of {way}, {NAMES[state['method']]}", "trail")
+        for method in runs:
+            answer.name(NAMES[method], ROLES[method])
 
 
 def half_view(state: State) -> float:
@@ -81,7 +89,8 @@ def poles(report: StabilityReport) -> Scene:
             x, y = (min(max(part, -EDGE), EDGE) for part in (pole.real, pole.imag))
             scene = scene.cross([x, y], role="no" if abs(pole) > 1.0 else role, size=7.0)
             if max(abs(pole.real), abs(pole.imag)) > EDGE:
-                scene = scene.text(f"|z| = {abs(pole):.3g}", [x, y], role="no", shift=(0, -12))
+                side = "left" if x < -1.0 else "right" if x > 1.0 else "center"
+                scene = scene.text(f"|z| = {abs(pole):.3g}", [x, y], role="no", align=side, shift=(0, -14))
     return scene
 
 

@@ -50,7 +50,7 @@ class MotionTab:
                options=(*((name, name) for name in PRESETS), ("custom", "my own"))),
         *_sliders(group="Segment"),
         Rows("then", "Segments after it", group="Chain", fields=_sliders(group=""), default=[], most=7, least=0,
-             row="segment", help="Each begins where the one before ends."),
+             row="segment", first=2, help="Each begins where the one before ends."),
         Slider("start_x", "Start x", group="Start", unit="m", low=-6.0, high=6.0, step=0.01, default=0.0),
         Slider("start_y", "Start y", group="Start", unit="m", low=-6.0, high=6.0, step=0.01, default=0.0),
         Slider("heading", "Start heading", group="Start", unit="rad", low=-3.15, high=3.15, step=0.01, default=0.0),

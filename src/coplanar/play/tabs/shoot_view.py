@@ -57,8 +57,10 @@ def show(answer: Answer, aim: Aim, state: State, *, live: bool) -> None:
         scene = scene.arrows([0.0, 0.0, *shaft.tolist()], role=ROLES[name])
         if aim.shortfall > 0.0:
             scene = scene.segments([*points[-1].tolist(), *target], role="no", dashed=True)
-    answer.pictures["main"] = scene.cross(target)
     _handles(answer, arcs, state, size)
+    if not arcs:
+        scene = scene.arrows([0.0, 0.0, *answer.handles[-1].at], role="muted")
+    answer.pictures["main"] = scene.cross(target)
     _read_arcs(answer, arcs, flown, live)
     _read_reach(answer, aim, arcs, state, live)
     _say(answer, aim, live)
@@ -108,7 +110,7 @@ def _with_envelope(answer: Answer, scene: Scene, arcs: dict[str, Arc], state: St
     if points is None:
         answer.complete = False
         return scene
-    answer.name("limit of what is in reach", "muted", dashed=True)
+    answer.name("limit of the reach", "muted", dashed=True)
     return scene.curve(points, role="muted", dashed=True)
 
 
