@@ -14,8 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from coplanar.engine.evaluator import FIRST_COMPILED_ROWS, Evaluator, can_compile, evaluator
+from coplanar.engine.evaluator import Evaluator, evaluator
 from coplanar.engine.foreign import is_foreign, namespace_of
+from coplanar.engine.policy import pays
 
 Columns = Sequence[Any]
 
@@ -71,7 +72,7 @@ class Walk:
             return self.on_text(begin, inputs, keep)
         first, tables = ([np.asarray(a, np.float64) for a in group] for group in (begin, inputs))
         shape = np.broadcast_shapes(*(a.shape for a in tables), *((*a.shape, 1) for a in first))
-        if math.prod(shape) >= FIRST_COMPILED_ROWS and can_compile():
+        if pays(math.prod(shape), False):
             return self.on_compiled(first, tables, shape, keep)
         return self.on_text(begin, inputs, keep)
 
