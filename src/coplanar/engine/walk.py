@@ -65,7 +65,7 @@ class Walk:
             keep: "all" for the pose before the first step and after every step, "end" for the last one only.
 
         Returns:
-            x, y and theta, each of shape (..., steps + 1) or (...); a float for shape ().
+            x, y and theta, each of shape (..., steps + 1) or (...); a float for shape (). Not to be written.
         """
         given = (*begin, *inputs)
         if any(map(is_foreign, given)):
@@ -91,12 +91,13 @@ class Walk:
         """Tile by tile in one compiled loop."""
         lead, steps = shape[:-1], shape[-1]
         rows = math.prod(lead)
-        whole = tuple(np.empty((*lead, steps + 1) if keep == "all" else lead) for _ in range(3))
+        whole = np.empty((3, *lead, steps + 1) if keep == "all" else (3, *lead))
         self._evaluator.kernel().walk(
             [_flat(b, lead) for b in begin], [_along(a, shape) for a in inputs],
-            tuple(out.reshape(-1) for out in whole), (rows, steps),
+            tuple(whole.reshape(3, -1)), (rows, steps),
         )  # fmt: skip
-        return whole if whole[0].ndim else tuple(map(float, whole))
+        whole.flags.writeable = False
+        return tuple(whole) if whole.ndim > 1 else tuple(map(float, whole))
 
 
 def _flat(array: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
