@@ -10,6 +10,7 @@ from benchmarks import truth
 from benchmarks.limits import Limits
 from benchmarks.measure import Contender, Workload
 from benchmarks.peers import jax64, load
+from benchmarks.single import as_they_come, warmed
 from coplanar import Displacement, Pose, Twist
 from coplanar.engine import evaluator
 from coplanar.laws import se2
@@ -190,7 +191,8 @@ def batch_floor(limits: Limits, threads: int, data: Any) -> float:
 
 
 ONCE = Workload(
-    "step", "one odometry step", "call", steps, (100, 100), (objects, bare_law),
+    "step", "one odometry step", "call", steps, (100, 100),
+    (warmed(objects), as_they_come(objects), bare_law),
     {"robotpy-wpimath": wpilib_once, "spatialmath (roboticstoolbox)": spatialmath_once, "jaxlie": jaxlie_once,
      "NumPy": numpy_euler},
     once_floor, {1: 1500.0}, 1e-12, same_row, (1, 1), (None,),

@@ -231,7 +231,7 @@ def search_floor(limits: Limits, threads: int, data: Postures) -> float:
 
 
 FORWARD = Workload(
-    "kinematics", "10^5 6R forward and Jacobian", "row", postures, (100_000, 20_000), (objects, at_once),
+    "kinematics", "10^5 6R forward and Jacobian", "row", postures, (100_000, 20_000), (at_once, objects),
     {"NumPy": numpy_batch, "JAX": jax_batch, "pinocchio": pinocchio_loop, "roboticstoolbox-python": rtb_loop},
     kinematics_floor, {1: 50.0, 2: 26.0}, 1e-11, kinematics, (300, 50),
 )  # fmt: skip

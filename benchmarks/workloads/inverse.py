@@ -10,6 +10,7 @@ from benchmarks import truth
 from benchmarks.limits import Limits
 from benchmarks.measure import Contender, Workload
 from benchmarks.peers import jax64, load
+from benchmarks.single import as_they_come, warmed
 from coplanar import Arm
 from coplanar.engine import evaluator
 from coplanar.laws import arms
@@ -224,7 +225,8 @@ def batch_floor(limits: Limits, threads: int, data: Any) -> float:
 
 
 ONCE = Workload(
-    "inverse", "one 2R inverse", "call", targets, (10, 10), (objects, bare_law),
+    "inverse", "one 2R inverse", "call", targets, (10, 10),
+    (warmed(objects), as_they_come(objects), bare_law),
     {"roboticstoolbox-python": rtb_once, "SciPy fsolve": fsolve_once, "pinocchio": pinocchio_once, "ikpy": ikpy_once},
     once_floor, {1: 3000.0}, 1e-12, same_row, (1, 1), (None,),
 )  # fmt: skip

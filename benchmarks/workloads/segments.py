@@ -10,6 +10,7 @@ from benchmarks import truth
 from benchmarks.limits import Limits
 from benchmarks.measure import Contender, Workload
 from benchmarks.peers import jax64, load
+from benchmarks.single import as_they_come, warmed
 from coplanar import Pose, Segment
 from coplanar.engine import evaluator
 from coplanar.laws import motion
@@ -229,7 +230,8 @@ def batch_floor(limits: Limits, threads: int, data: Any) -> float:
 
 
 ONCE = Workload(
-    "segment", "one constant-acceleration segment", "call", clothoids, (10, 10), (objects, built, bare_law),
+    "segment", "one constant-acceleration segment", "call", clothoids, (10, 10),
+    (warmed(objects), warmed(built), as_they_come(objects), as_they_come(built), bare_law),
     {"pyclothoids": pyclothoids_once, "pyclothoids ": pyclothoids_there, "SciPy quad": quad_once},
     once_floor, {1: 3000.0}, 1e-12, same_row, (1, 1), (None,),
 )  # fmt: skip

@@ -12,6 +12,7 @@ from benchmarks import truth
 from benchmarks.limits import Limits
 from benchmarks.measure import Contender, Workload
 from benchmarks.peers import load
+from benchmarks.single import as_they_come, warmed
 from coplanar.flight import Projectile
 
 DRAG, GRAVITY = 0.02, 9.81  # C/m [1/m], [m/s^2]
@@ -212,13 +213,15 @@ def aim_floor(limits: Limits, threads: int, data: Any) -> float:
 
 
 IMPACT = Workload(
-    "shots", "drag shots to impact, 1e-10", "shot", shots, (10_000, 1000), (batch, one_shot),
+    "shots", "drag shots to impact, 1e-10", "shot", shots, (10_000, 1000),
+    (batch, warmed(one_shot), as_they_come(one_shot)),
     {"SciPy solve_ivp": solve_ivp_loop, "py-ballisticcalc": ballisticcalc_loop},
     shot_floor, {1: 500.0, 2: 260.0}, 1e-9, landings, (20, 3),
 )  # fmt: skip
 
 AIM = Workload(
-    "aim", "aim at a speed, both arcs", "target", aims, (400, 20), (batch_aim, one_aim),
+    "aim", "aim at a speed, both arcs", "target", aims, (10_000, 1000),
+    (batch_aim, warmed(one_aim), as_they_come(one_aim)),
     {"SciPy": brentq_loop, "py-ballisticcalc": ballisticcalc_aim, "ballistic-solver": ballistic_solver_loop},
     aim_floor, {1: 1500.0}, 1e-9, aimed, (4, 1),
 )  # fmt: skip

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from coplanar.arms import Arm
     from coplanar.control import Limits, PointTracker, PolarController, Unicycle
     from coplanar.curves import Astroid, Circle, Ellipse, FreeCurve, HeldPoint, Lemniscate, Line, Polyline, Spline
+    from coplanar.engine import warm_up
     from coplanar.errors import CoplanarError, InvalidInput, NoSolution
     from coplanar.flight import Projectile
     from coplanar.frames import FrameTree, coordinates, from_coordinates
@@ -40,6 +41,7 @@ _HOMES = {
     "arms": "Arm",
     "control": "Limits PointTracker PolarController Unicycle",
     "curves": "Astroid Circle Ellipse FreeCurve HeldPoint Lemniscate Line Polyline Spline",
+    "engine": "warm_up",
     "errors": "CoplanarError InvalidInput NoSolution",
     "flight": "Projectile",
     "frames": "FrameTree coordinates from_coordinates",
@@ -104,6 +106,7 @@ __all__ = [
     "sweep",
     "trace",
     "unwrap_angles",
+    "warm_up",
     "wrap_angle",
     "write_log",
     "write_urdf",

@@ -130,5 +130,5 @@ class TestCalls:
         both = search()
         slow = both(3.0, 0.5)
         both.on_compiled([np.linspace(1.0, 2.0, 5), np.array(0.5)], (5,))
-        assert both._loops.one is not None
+        assert both._loops.single is not None
         assert both(3.0, 0.5) == pytest.approx(slow, rel=1e-14)

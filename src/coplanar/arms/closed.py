@@ -159,7 +159,7 @@ class Closed:
         rest = 0.0 if self._plain else self._near(0) + chain.bends[0]
         given = (self._x, self._y, elbow, links.l1, links.l2, links.inner, self._goal.tolerance, rest)
         if not self._goal.lead:
-            turns = _two_link_turns.on_floats(*given)
+            turns = _two_link_turns(*given)
             return (turns, 1.0) if self._plain else self._joints(*turns)
         table = np.empty((2, len(self._x)))
         _two_link_turns.into((table[0], table[1]), *given)

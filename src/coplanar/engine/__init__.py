@@ -32,8 +32,9 @@ from coplanar.engine.arrays import (
     turn_remainder,
     where,
 )
-from coplanar.engine.evaluator import Evaluator, can_compile, evaluator, reproducible
+from coplanar.engine.evaluator import Evaluator, evaluator
 from coplanar.engine.foreign import components, is_foreign, namespace_of, stack
+from coplanar.engine.policy import can_compile, reproducible, warm_up
 from coplanar.engine.scan import Scan
 from coplanar.engine.search import Search
 from coplanar.engine.walk import Walk, running_sum
@@ -80,5 +81,6 @@ __all__ = [
     "tan",
     "tanh",
     "turn_remainder",
+    "warm_up",
     "where",
 ]

@@ -9,12 +9,9 @@ JAX, PyTorch, CuPy arrays     the law's own code over their namespace
 from __future__ import annotations
 
 import functools
-import importlib
 import math
 import threading
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -22,17 +19,13 @@ import numpy as np
 from coplanar.engine import scalars
 from coplanar.engine.binding import PRIMITIVES, array_primitives, bind, operations
 from coplanar.engine.foreign import alike, broadcast_shape, is_foreign
+from coplanar.engine.policy import AT_ONCE, BY_ROWS_ALONE, COMPILED_ROWS, LONG, can_compile, mode, pays
 from coplanar.errors import InvalidShape
 
-FIRST_COMPILED_ROWS = 20_000  # below this a batch never waits for the compiler
-COMPILED_ROWS = 100  # from here the compiled loop wins, once it is there,
-LONG = 10  # and from one row for a law of as many operations
-
-_FLOAT = {float}
+_FLOAT = frozenset((float,))
 _FLOAT64 = np.dtype(np.float64)
 _FLOAT_PRIMITIVES = {name: getattr(scalars, name) for name in (*PRIMITIVES, "integral")}
 _float_laws: dict[Any, Any] = {}
-_by_rows_alone: ContextVar[bool] = ContextVar("_by_rows_alone", default=False)
 
 
 class Evaluator:
@@ -59,6 +52,7 @@ class Evaluator:
         self.law = law
         self.on_floats: Callable[..., Any] = bind(law, _FLOAT_PRIMITIVES, bound=_float_laws)
         self._kernel: Any = None
+        self._one: Callable[..., Any] | None = None
         self._lock = threading.Lock()
         functools.update_wrapper(self, law)
 
@@ -68,9 +62,11 @@ class Evaluator:
         Raises:
             InvalidShape: If the arguments do not broadcast.
         """
-        if {*map(type, args)} == _FLOAT:
+        if _FLOAT.issuperset(map(type, args)):
+            if mode.get():
+                return self._on_numbers(args)
             try:
-                return self.on_floats(*args)
+                return self._one(args) if self._one else self.on_floats(*args)
             except (ArithmeticError, ValueError):  # where math raises, arrays answer inf or NaN
                 return self._on_one_row(args)
         if any(is_foreign(a) for a in args):
@@ -131,9 +127,16 @@ class Evaluator:
             array[...] = part
 
     def _compiles(self, rows: int) -> bool:
-        return (
-            rows >= (self._compiled_rows if warm(self._kernel is not None) else FIRST_COMPILED_ROWS) and can_compile()
-        )
+        return pays(rows, self._kernel is not None, least=self._compiled_rows)
+
+    def _on_numbers(self, args: tuple[float, ...]) -> Any:
+        """One row where the calls around it are to be compiled at once, or are to give the same digits."""
+        if mode.get() == AT_ONCE and self._one is None and self._compiled_rows == 1 and can_compile():
+            self._one = self.kernel().one("rows", (args,))
+        try:
+            return self._one(args) if self._one and mode.get() != BY_ROWS_ALONE else self.on_floats(*args)
+        except (ArithmeticError, ValueError):
+            return self._on_one_row(args)
 
     @functools.cached_property
     def _compiled_rows(self) -> int:
@@ -192,34 +195,6 @@ class Evaluator:
 def evaluator(law: Callable[..., Any]) -> Evaluator:
     """The evaluator of a law; the same one for every caller."""
     return Evaluator(law)
-
-
-@contextmanager
-def reproducible() -> Iterator[None]:
-    """In this block the number of rows alone decides who evaluates, not what was compiled before.
-
-    Evaluators differ in the last digit; here the same call gives the same digits, whatever ran before it.
-    """
-    token = _by_rows_alone.set(True)
-    try:
-        yield
-    finally:
-        _by_rows_alone.reset(token)
-
-
-def warm(ready: bool) -> bool:
-    """Whether a compiled loop that is ready may serve batches that would not be worth its compilation."""
-    return ready and not _by_rows_alone.get()
-
-
-@functools.cache
-def can_compile() -> bool:
-    """Whether Numba is installed here and imports; without it the NumPy text answers every batch."""
-    try:
-        importlib.import_module("numba")
-    except ImportError:  # absent, or not made for the NumPy that is here
-        return False
-    return True
 
 
 @functools.cache

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from coplanar.engine.evaluator import FIRST_COMPILED_ROWS, can_compile, warm
+from coplanar.engine.policy import FIRST_COMPILED_ROWS, pays
 
 SEARCH_STEPS = 10  # a row of a search is the work of so many rows of places
 FIRST_SEARCHED_ROWS = 5_000  # below this many searches a batch never waits for the compiler
@@ -49,7 +49,7 @@ class Linkage:
     def pays(self, kind: str, rows: int) -> bool:
         """Whether the compiled loop, "chain" or "search", serves so many rows sooner than NumPy text."""
         first = FIRST_SEARCHED_ROWS if kind == "search" else FIRST_COMPILED_ROWS
-        return rows >= (1 if warm(kind in self._ready) else first) and can_compile()
+        return pays(rows, kind in self._ready, first=first)
 
     def places(self, table: ChainTable, q: np.ndarray, pose: Any, points: Any, jacobian: Any) -> None:
         """Write what is wanted; what is not is None.

@@ -14,8 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from coplanar.engine.evaluator import FIRST_COMPILED_ROWS, Evaluator, can_compile, evaluator
+from coplanar.engine.evaluator import Evaluator, evaluator
 from coplanar.engine.foreign import alike, is_foreign
+from coplanar.engine.policy import pays
 
 Columns = Sequence[Any]
 Keep = str | Collection[int]
@@ -64,7 +65,7 @@ class Scan:
         tails = [t.shape[1:] for t in tables]
         rows = np.broadcast_shapes(*(a.shape for a in (*state, *constants)), *tails)
         work = math.prod(rows) * len(tables[0])
-        if work >= FIRST_COMPILED_ROWS and can_compile():
+        if pays(work, False):
             return self.on_compiled(state, tables, constants, rows, keep)
         return self.on_text(state, tables, constants, rows, keep)
 

@@ -19,8 +19,9 @@ import numpy as np
 
 from coplanar.engine import gauss
 from coplanar.engine.arrays import Integral
-from coplanar.engine.evaluator import Evaluator, can_compile, evaluator, warm
+from coplanar.engine.evaluator import Evaluator, evaluator
 from coplanar.engine.foreign import broadcast_shape
+from coplanar.engine.policy import AT_ONCE, can_compile, mode, pays, warm
 from coplanar.errors import InvalidShape
 
 FIRST_COMPILED_ROWS = 5_000  # below this many a batch never waits for the compiler; a row is the work of many
@@ -75,7 +76,7 @@ class Search:
         """
         most = rounds or self.rounds
         if _FLOAT.issuperset(map(type, inputs)):
-            one = self._loops.one if warm(self._loops is not None) else None
+            one = self._single(inputs) if warm(self._loops is not None) else None
             return one(inputs, most) if one else self.on_floats(*inputs, rounds=most)
         arrays = [np.asarray(a, np.float64) for a in inputs]
         try:
@@ -87,7 +88,7 @@ class Search:
         if rows == 1:
             answer = self(*(a.item() for a in arrays), rounds=rounds)
             return tuple(np.full(shape, a) for a in answer) if shape else answer
-        if warm(self._loops is not None) or (rows >= FIRST_COMPILED_ROWS and can_compile()):
+        if pays(rows, self._loops is not None, first=FIRST_COMPILED_ROWS):
             return self.on_compiled(arrays, shape, most)
         return self.on_text(arrays, shape, most)
 
@@ -143,13 +144,24 @@ class Search:
         self, inputs: Sequence[np.ndarray], shape: tuple[int, ...], rounds: int = MOST_ROUNDS
     ) -> tuple[np.ndarray, ...]:
         """The laws in one compiled loop over blocks of rows that advance together."""
+        outputs = tuple(np.empty(shape) for _ in range(self.sizes["OUT"]))
+        self._kernel().run(inputs, outputs, shape, rounds)
+        return outputs
+
+    def _kernel(self) -> Any:
         if self._loops is None:
             from coplanar.engine.compiled.search import SearchKernel
 
             self._loops = SearchKernel({name: law.law for name, law in self._laws.items()}, self.sizes)
-        outputs = tuple(np.empty(shape) for _ in range(self.sizes["OUT"]))
-        self._loops.run(inputs, outputs, shape, rounds)
-        return outputs
+        return self._loops
+
+    def _single(self, inputs: tuple[float, ...]) -> Any:
+        """The compiled search for one row, if it is there or wanted."""
+        if self._loops is None and not can_compile():
+            return None
+        if mode.get() == AT_ONCE:
+            self._kernel().warm_up(len(inputs))
+        return self._loops.single
 
     @functools.cached_property
     def sizes(self) -> dict[str, int]:

@@ -14,8 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from coplanar.engine.evaluator import FIRST_COMPILED_ROWS, Evaluator, can_compile, evaluator
+from coplanar.engine.evaluator import Evaluator, evaluator
 from coplanar.engine.foreign import is_foreign, namespace_of
+from coplanar.engine.policy import pays
 
 Columns = Sequence[Any]
 
@@ -64,14 +65,14 @@ class Walk:
             keep: "all" for the pose before the first step and after every step, "end" for the last one only.
 
         Returns:
-            x, y and theta, each of shape (..., steps + 1) or (...); a float for shape ().
+            x, y and theta, each of shape (..., steps + 1) or (...); a float for shape (). Not to be written.
         """
         given = (*begin, *inputs)
         if any(map(is_foreign, given)):
             return self.on_text(begin, inputs, keep)
         first, tables = ([np.asarray(a, np.float64) for a in group] for group in (begin, inputs))
         shape = np.broadcast_shapes(*(a.shape for a in tables), *((*a.shape, 1) for a in first))
-        if math.prod(shape) >= FIRST_COMPILED_ROWS and can_compile():
+        if pays(math.prod(shape), False):
             return self.on_compiled(first, tables, shape, keep)
         return self.on_text(begin, inputs, keep)
 
@@ -90,12 +91,13 @@ class Walk:
         """Tile by tile in one compiled loop."""
         lead, steps = shape[:-1], shape[-1]
         rows = math.prod(lead)
-        whole = tuple(np.empty((*lead, steps + 1) if keep == "all" else lead) for _ in range(3))
+        whole = np.empty((3, *lead, steps + 1) if keep == "all" else (3, *lead))
         self._evaluator.kernel().walk(
             [_flat(b, lead) for b in begin], [_along(a, shape) for a in inputs],
-            tuple(out.reshape(-1) for out in whole), (rows, steps),
+            tuple(whole.reshape(3, -1)), (rows, steps),
         )  # fmt: skip
-        return whole if whole[0].ndim else tuple(map(float, whole))
+        whole.flags.writeable = False
+        return tuple(whole) if whole.ndim > 1 else tuple(map(float, whole))
 
 
 def _flat(array: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:

@@ -109,7 +109,7 @@ class Odometry:
         dt = np.diff(times)
         forward, turn = (held_samples(name, value, times.size) for name, value in (("v", v), ("omega", omega)))
         checks.broadcast(v=forward, omega=turn)
-        return cls(_measured(forward * dt, turn * dt))
+        return cls(Displacement._of(forward * dt, 0.0, turn * dt))
 
     @classmethod
     def from_wheels(cls, left: ArrayLike, right: ArrayLike, *, track: ArrayLike) -> Odometry:
@@ -132,7 +132,7 @@ class Odometry:
         ways["track"] = checks.positive("track", track)
         checks.broadcast(**ways)
         distance, turn = _wheel_increments(*ways.values())
-        return cls(_measured(distance, turn))
+        return cls(Displacement._of(distance, 0.0, turn))
 
     def path(self, start: Pose, *, method: str = EXACT) -> Pose:
         """The pose before each tick and after the last one, shape (..., n + 1), with no loop over ticks.
@@ -261,14 +261,6 @@ def summed_about(path: Pose, start: Pose, increments: Displacement, Q: np.ndarra
     )
     sums: np.ndarray = np.cumsum(rows, axis=-3)
     return sums
-
-
-def _measured(distance: Real, turn: Real) -> Displacement:
-    """A way straight ahead and a turn, from arrays that nobody else holds: read-only from here, and so not copied."""
-    for part in (distance, turn):
-        if isinstance(part, np.ndarray):
-            part.flags.writeable = False
-    return Displacement(distance, 0.0, turn)
 
 
 def lever(dx: Real, dy: Real) -> np.ndarray:

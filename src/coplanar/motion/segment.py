@@ -24,6 +24,7 @@ _velocities = evaluator(laws.velocities)
 LONGEST_TURN = 1.0e5  # [rad] the work grows with the turn: 200 000 points at this one
 _WITHIN = f"(rate of turn) x duration of at most {LONGEST_TURN:g} rad"
 
+NAMES = ("v", "omega", "a", "alpha", "duration")
 KINDS = ("rest", "line", "spin", "arc", "circle", "clothoid", "general")
 
 
@@ -61,11 +62,12 @@ class Segment:
     duration: Real
 
     def __post_init__(self) -> None:
-        values = {name: checks.real(name, getattr(self, name)) for name in ("v", "omega", "a", "alpha")}
-        values["duration"] = checks.not_negative("duration", self.duration)
-        checks.broadcast(**values)
-        for name, value in values.items():
-            object.__setattr__(self, name, checks.frozen(value))
+        if not (checks.plain(*self.parts) and self.duration >= 0.0):
+            values = {name: checks.real(name, value) for name, value in zip(NAMES, self.parts, strict=True)}
+            checks.not_negative("duration", self.duration)
+            checks.broadcast(**values)
+            for name, value in values.items():
+                object.__setattr__(self, name, checks.frozen(value))
         turn = _most_turn(self.omega, self.alpha, self.duration)
         given = self.omega, self.alpha
         checks.demand(turn <= LONGEST_TURN, "omega, alpha", given, turn, _WITHIN, "split the segment")
@@ -74,7 +76,7 @@ class Segment:
     def _of(cls, *parts: Real) -> Segment:
         """The segment of (v, omega, a, alpha, duration) without the checks."""
         new = object.__new__(cls)
-        for name, value in zip(("v", "omega", "a", "alpha", "duration"), parts, strict=True):
+        for name, value in zip(NAMES, parts, strict=True):
             object.__setattr__(new, name, value)
         return new
 

@@ -35,6 +35,8 @@ class Triple:
             cls._setters = first, second, third
 
     def __post_init__(self) -> None:
+        if checks.plain(*self.parts):
+            return
         values = [checks.real(name, part) for name, part in zip(self.names, self.parts, strict=True)]
         if any(type(value) is not float for value in values):
             checks.broadcast(**dict(zip(self.names, values, strict=True)))

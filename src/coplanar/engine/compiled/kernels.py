@@ -54,6 +54,11 @@ class Loops:
         else:
             self._call(kind, f"{kind}_serial", constants, arguments)
 
+    def one(self, kind, arguments, constants=()):
+        """The function of a kind for one row of numbers, compiled for such arguments."""
+        self._call(kind, f"{kind}_one", constants, arguments)
+        return self._compiled(kind, f"{kind}_one", constants)
+
     def _call(self, kind, loop, constants, arguments):
         try:
             self._compiled(kind, loop, constants)(*arguments)

@@ -33,7 +33,7 @@ def scan_block(initial, walk, shared, own, parameters, hold, outs, size, start, 
             now = law(*some(table, 0, i, STATES), *inputs, *gather(parameters, hold, start, i))  # noqa: F821
             put(table, 0, i, now)
             check = total_of(now)
-            doubt[i] = doubt[i] if check == check else check  # NaN is what does not equal itself
+            doubt[i] += check  # NaN, once there, stays
         spill(outs, table, mine + width, rows, KEPT)  # noqa: F821
     spill(outs, table, start, rows, ENDS)  # noqa: F821
     for i in range(rows):

@@ -14,12 +14,15 @@ class SearchKernel(Loops):
         super().__init__(laws, {"rounds": rounds})
         more = {"WITH": 1 + sizes["ROW"], "SPAN": 3 + sizes["ARGS"]}
         self._constants = tuple({**sizes, **more}.items())
-        self.one = None  # from a tuple of numbers and the rounds to the answer; there after the first batch
+        self.single = None  # from a tuple of numbers and the rounds to the answer, once it is compiled
 
     def run(self, inputs, outputs, shape, most):
         """Search every row of the broadcast inputs in so many rounds; the outputs are new arrays of ``shape``."""
         columns = tuple(out.reshape(-1) for out in outputs)
         self.fill("rounds", inputs, columns, shape, more=(most,), work=rounds.WORK, constants=self._constants)
-        if self.one is None:
-            self._call("rounds", "rounds_one", self._constants, ((0.5,) * len(inputs), 1))
-            self.one = self._compiled("rounds", "rounds_one", self._constants)
+        self.warm_up(len(inputs))
+
+    def warm_up(self, count):
+        """Compile the search for one row of so many numbers."""
+        if self.single is None:
+            self.single = self.one("rounds", ((0.5,) * count, 1), self._constants)
