@@ -5,86 +5,25 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
 from coplanar import scenarios
 from coplanar.arms import Arm
-from coplanar.play import Session
 from tests.browser.conftest import playing, rest, state_of, until
+from tests.browser.hands import answered, centre_of, copied, drag, drawn_near, pixel_of, walked
 
-TABS = ("arm", "drive", "base", "motion", "shoot", "lab")
 AXE = Path(__file__).parents[2] / "tools" / "web" / "node_modules" / "axe-core" / "axe.min.js"
-LEFT, RIGHT, TOP, BOTTOM = 44, 14, 14, 30  # margins of a picture [px]
 
 
-def pixel_of(page, place, picture="main"):
-    """Where a place of the plane is on the screen, by what the page says it shows: equal axes, centred."""
-    bounds, box = page.evaluate(
-        """(name) => {
-            const { framing, canvas } = playground.stage.pictures.get(name);
-            const { x, y, width, height } = canvas.getBoundingClientRect();
-            return [framing.bounds, { x, y, width, height }];
-        }""",
-        picture,
-    )
-    xmin, xmax, ymin, ymax = bounds
-    width, height = box["width"] - LEFT - RIGHT, box["height"] - TOP - BOTTOM
-    scale = min(width / (xmax - xmin), height / (ymax - ymin))
-    x = box["x"] + LEFT + 0.5 * width + scale * (place[0] - 0.5 * (xmin + xmax))
-    y = box["y"] + TOP + 0.5 * height - scale * (place[1] - 0.5 * (ymin + ymax))
-    return x, y
+def test_every_tab_shows_what_python_says(visit):
+    page = visit("lab")
+    for tab in walked(page):
+        _shows_what_python_says(page, tab)
 
 
-def centre_of(page, handle):
-    box = page.locator(f"[data-handle={handle}]").bounding_box()
-    return box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"]
-
-
-def drawn_near(page, colour, x, y):
-    """Centre of the pixels of a colour within 16 pixels of a point of the main picture."""
-    return page.evaluate(
-        """([role, x, y]) => {
-            const { canvas } = playground.stage.pictures.get("main");
-            const box = canvas.getBoundingClientRect();
-            const [left, top] = [Math.round(x - box.x) - 16, Math.round(y - box.y) - 16];
-            const data = canvas.getContext("2d").getImageData(left, top, 33, 33).data;
-            const wanted = getComputedStyle(canvas).getPropertyValue("--" + role).trim().slice(1);
-            const rgb = [0, 2, 4].map((i) => parseInt(wanted.slice(i, i + 2), 16));
-            let [sx, sy, n] = [0, 0, 0];
-            for (let i = 0; i < 33 * 33; i++) {
-                if (rgb.some((v, k) => Math.abs(v - data[4 * i + k]) > 12)) continue;
-                sx += (i % 33) + 0.5; sy += Math.floor(i / 33) + 0.5; n += 1;
-            }
-            return n ? [left + sx / n + box.x, top + sy / n + box.y, n] : [NaN, NaN, 0];
-        }""",
-        [colour, x, y],
-    )
-
-
-def drag(page, handle, to):
-    """Take a handle by the mouse and let it go at a place of the plane."""
-    page.mouse.move(*centre_of(page, handle))
-    page.mouse.down()
-    page.mouse.move(*pixel_of(page, to), steps=12)
-    page.mouse.up()
-    rest(page)
-
-
-def answered(page):
-    """What Python says of the state that the page holds."""
-    answer = Session().handle(
-        {"id": 0, "do": "show", "tab": page.evaluate("playground.desk.tab"), "state": state_of(page)}
-    )
-    assert answer["ok"], answer
-    return answer
-
-
-@pytest.mark.parametrize("tab", TABS)
-def test_every_tab_loads_and_shows_what_python_says(visit, tab):
-    page = visit(tab)
+def _shows_what_python_says(page, tab):
     answer = answered(page)
     assert page.locator("[role=tab][aria-selected=true]").inner_text().lower() == tab
     assert page.locator("#sentences li > span:last-child").all_inner_texts() == [s["text"] for s in answer["sentences"]]
@@ -92,24 +31,25 @@ def test_every_tab_loads_and_shows_what_python_says(visit, tab):
     assert sorted(text.replace("\u2212", "-") for text in shown) == sorted(r["value"] for r in answer["readouts"])
     assert page.locator(".picture canvas").count() == len(answer["pictures"])
     assert page.locator(".chart").count() == len(answer["series"])
+    named = [line["label"] for lines in answer["legends"].values() for line in lines]
+    assert page.locator(".legend li").all_inner_texts() == named
     for handle in answer["handles"]:
         assert centre_of(page, handle["id"]) == pytest.approx(pixel_of(page, handle["at"], handle["picture"]), abs=1.0)
 
 
-@pytest.mark.parametrize("to", [(0.4, 1.1), (-0.9, -0.5), (1.25, 1.3)])
-def test_the_drawn_tool_is_within_a_pixel_of_pythons_answer(visit, to):
+def test_the_drawn_tool_is_within_a_pixel_of_pythons_answer(visit):
     """Also where the target is out of reach: then the tool is at the nearest point."""
     page = visit("arm")
-    drag(page, "tool", to)
-    state = state_of(page)
-    assert (state["target_x"], state["target_y"]) == pytest.approx(to, abs=0.02)
-    tool = Arm([state["l1"], state["l2"]]).forward([state["q1"], state["q2"]]).position.tolist()
-    x, y = pixel_of(page, tool)
-    drawn_x, drawn_y, count = drawn_near(page, "trail", x, y)
-    assert count > 20
-    assert (drawn_x, drawn_y) == pytest.approx((x, y), abs=1.0)
-    if to == (1.25, 1.3):
-        assert float(page.locator("[data-readout=gap]").inner_text()) > 0.05
+    for to in ((0.4, 1.1), (-0.9, -0.5), (1.25, 1.3)):
+        drag(page, "tool", to)
+        state = state_of(page)
+        assert (state["target_x"], state["target_y"]) == pytest.approx(to, abs=0.02)
+        tool = Arm([state["l1"], state["l2"]]).forward([state["q1"], state["q2"]]).position.tolist()
+        x, y = pixel_of(page, tool)
+        drawn_x, drawn_y, count = drawn_near(page, "trail", x, y)
+        assert count > 20
+        assert (drawn_x, drawn_y) == pytest.approx((x, y), abs=1.0)
+    assert float(page.locator("[data-readout=gap]").inner_text()) > 0.05
 
 
 def test_the_target_of_a_shot_follows_the_mouse(visit):
@@ -178,38 +118,39 @@ def test_a_number_out_of_range_is_refused_in_words(visit):
     assert box.input_value() == "1"
 
 
-@pytest.mark.parametrize("tab", TABS)
-def test_a_share_link_restores_exactly(visit, tab):
-    page = visit(tab)
-    handle = page.locator("#stage .handle").first
-    if handle.count():
-        handle.focus()
-        for key in ("ArrowRight", "ArrowUp", "ArrowUp"):
-            page.keyboard.press(key)
-        rest(page)
-    page.get_by_role("button", name="Share").click()
-    link = page.locator("#copied-text").input_value()
-    page.get_by_role("button", name="Close").click()
-    assert link.startswith(page.url.split("#")[0])
-    other = visit(link.split("#", 1)[1])
-    assert state_of(other) == state_of(page)
-    assert other.locator("#sentences").inner_text() == page.locator("#sentences").inner_text()
+def test_a_share_link_restores_exactly(visit):
+    page, other = visit("lab"), visit("arm")
+    for tab in walked(page):
+        handle = page.locator("#stage .handle").first
+        if handle.count():
+            handle.focus()
+            for key in ("ArrowRight", "ArrowUp", "ArrowUp"):
+                page.keyboard.press(key)
+            rest(page)
+        page.get_by_role("button", name="Share").click()
+        link = page.locator("#copied-text").input_value()
+        page.get_by_role("button", name="Close").click()
+        assert link.startswith(page.url.split("#")[0])
+        other.goto("about:blank")
+        other.goto(link)
+        other.wait_for_selector(f"html[data-tab={tab}]")
+        rest(other)
+        assert state_of(other) == state_of(page)
+        assert other.locator("#sentences").inner_text() == page.locator("#sentences").inner_text()
 
 
-@pytest.mark.parametrize(
-    ("fragment", "words"),
-    [("arm=%%%", "damaged"), ("arm=e30x!", "damaged"), ("dance", "no tab"), ("arm=eyJsMSI6OTl9", "l1 = 99")],
-)
-def test_a_bad_link_is_told_and_defaults_are_shown(browser, address, visit, fragment, words):
+def test_a_bad_link_is_told_and_defaults_are_shown(visit, address):
     page = visit("arm")
     defaults = state_of(page)
-    page.goto("about:blank")
-    page.goto(f"{address}#{fragment}")
-    page.wait_for_selector("html[data-tab=arm]")
-    until(page, "!playground.notice.hidden")
-    assert words in page.locator("#notice").inner_text()
-    rest(page)
-    assert state_of(page) == defaults
+    bad = (("arm=%%%", "damaged"), ("arm=e30x!", "damaged"), ("dance", "no tab"), ("arm=eyJsMSI6OTl9", "l1 = 99"))
+    for fragment, words in bad:
+        page.goto("about:blank")
+        page.goto(f"{address}#{fragment}")
+        page.wait_for_selector("html[data-tab=arm]")
+        until(page, "!playground.notice.hidden")
+        assert words in page.locator("#notice").inner_text()
+        rest(page)
+        assert state_of(page) == defaults
 
 
 def test_back_and_forward_walk_through_what_was_done(visit):
@@ -264,27 +205,6 @@ def test_a_click_on_a_curve_moves_the_time(visit):
     assert page.evaluate("playground.clock.part") == pytest.approx(0.25, abs=0.02)
 
 
-@pytest.mark.parametrize("tab", ["arm", "drive"])
-def test_a_line_drawn_by_hand_is_followed(visit, tab):
-    page = visit(tab)
-    page.get_by_role("combobox", name="Curve").select_option("stroke")
-    until(page, "document.querySelector('canvas.drawing') !== null")
-    rest(page)
-    places = [(0.5 + 0.05 * i, 0.6 + 0.02 * i) for i in range(12)]
-    page.mouse.move(*pixel_of(page, places[0]))
-    page.mouse.down()
-    for place in places[1:]:
-        page.mouse.move(*pixel_of(page, place), steps=3)
-    page.mouse.up()
-    rest(page)
-    stroke = state_of(page)["stroke"]
-    assert len(stroke) > 10
-    assert stroke[0] == pytest.approx(places[0], abs=0.02)
-    assert stroke[-1] == pytest.approx(places[-1], abs=0.05)
-    assert page.evaluate("playground.clock.end > 0")
-    assert page.locator("canvas.drawing").count() == 0
-
-
 def test_wheels_are_added_and_taken_away(visit):
     page = visit("base")
     count = len(state_of(page)["wheels"])
@@ -294,31 +214,6 @@ def test_wheels_are_added_and_taken_away(visit):
     page.get_by_role("button", name=f"Take away wheel {count + 1}").click()
     rest(page)
     assert len(state_of(page)["wheels"]) == count
-
-
-def test_the_rate_while_dragging(visit, capsys):
-    """Round trips and frames a second with the mouse always moving; the numbers are for the reader."""
-    for tab, handle in (("arm", "tool"), ("drive", "curve"), ("base", None), ("motion", "end"), ("shoot", "target")):
-        page = visit(tab)
-        name = handle or page.evaluate("playground.stage.handles[0].id")
-        x, y = centre_of(page, name)
-        page.mouse.move(x, y)
-        page.mouse.down()
-        counts = "[playground.desk.answers, playground.stage.frames, performance.now()]"
-        before, step = page.evaluate(counts), 0
-        end = time.monotonic() + 1.2
-        while time.monotonic() < end:
-            step += 1
-            page.mouse.move(x + 30 * ((step % 40) / 20 - 1), y + 20 * ((step % 30) / 15 - 1))
-        after = page.evaluate(counts)
-        page.mouse.up()
-        seconds = (after[2] - before[2]) / 1000
-        answers, frames = (after[0] - before[0]) / seconds, (after[1] - before[1]) / seconds
-        with capsys.disabled():
-            sys.stdout.write(f"\n{tab}: {answers:.0f} answers and {frames:.0f} frames a second while dragging {name}")
-        assert answers > 5.0
-        assert frames > 5.0
-        page.close()
 
 
 def test_the_keyboard_reaches_everything(visit):
@@ -382,24 +277,6 @@ def test_the_page_comes_back_when_the_server_does(visit):
         page.close()
     assert all("ERR_CONNECTION_REFUSED" in error for error in visit.errors)
     visit.errors.clear()
-
-
-def walked(page):
-    """Every tab in turn, by its button."""
-    for tab in TABS:
-        page.locator(f"#tab-{tab}").click()
-        page.wait_for_selector(f"html[data-tab={tab}]")
-        rest(page)
-        yield tab
-
-
-def copied(page, button):
-    """The text that a button offers."""
-    page.get_by_role("button", name=button).click()
-    until(page, "document.querySelector('#copied').open && document.querySelector('#copied-status').textContent !== ''")
-    text = page.locator("#copied-text").input_value()
-    page.get_by_role("button", name="Close").click()
-    return text
 
 
 def test_copied_python_runs_and_agrees_with_the_page(visit):

@@ -1,4 +1,7 @@
-// One WebSocket that comes back, with one request in flight.
+// One WebSocket that comes back, with one request in flight; with two where the second replaces the first.
+//
+// The server answers in the order in which it is asked. Of a request that waits while another one comes it answers the
+// newer one alone, so an answer settles its own request and those before it.
 
 /** @typedef {import("./types.js").Reply} Reply */
 
@@ -6,7 +9,8 @@ const FULL = 1013;
 const IDLE = 4000;
 const SLOWEST = 4000; // [ms] between attempts
 
-/** @typedef {{request: Record<string, any>, resolve: (reply: Reply) => void, reject: (reason: Error) => void}} Asked */
+/** @typedef {{id: number, request: Record<string, any>, resolve: (reply: Reply | undefined) => void,
+ *   reject: (reason: Error) => void}} Asked */
 
 export class Connection {
   /**
@@ -20,8 +24,8 @@ export class Connection {
     this.count = 0;
     /** @type {WebSocket | undefined} */
     this.socket = undefined;
-    /** @type {Asked | undefined} */
-    this.inFlight = undefined;
+    /** @type {Asked[]} */
+    this.inFlight = [];
     /** @type {Asked[]} */
     this.queue = [];
     this.connect();
@@ -29,7 +33,17 @@ export class Connection {
 
   /** Whether a request would be sent at once. */
   get free() {
-    return this.socket?.readyState === WebSocket.OPEN && !this.inFlight && this.queue.length === 0;
+    return this.#room(1);
+  }
+
+  /** Whether a request that replaces the one in flight would be sent at once. */
+  get freeToReplace() {
+    return this.#room(2);
+  }
+
+  /** @param {number} most */
+  #room(most) {
+    return this.socket?.readyState === WebSocket.OPEN && this.inFlight.length < most && this.queue.length === 0;
   }
 
   connect() {
@@ -47,9 +61,7 @@ export class Connection {
   /** @param {CloseEvent} event */
   closed(event) {
     this.socket = undefined;
-    const lost = this.inFlight;
-    this.inFlight = undefined;
-    lost?.reject(new Error("The connection was lost."));
+    for (const lost of this.inFlight.splice(0).reverse()) lost.reject(new Error("The connection was lost."));
     if (event.code === IDLE) {
       this.changed("idle", event.reason);
       return;
@@ -70,29 +82,46 @@ export class Connection {
    * @param {Record<string, any>} request
    * @returns {Promise<Reply>}
    */
-  ask(request) {
-    return new Promise((resolve, reject) => {
-      this.queue.push({ request, resolve, reject });
+  async ask(request) {
+    const reply = await new Promise((resolve, reject) => {
+      this.queue.push({ id: 0, request, resolve, reject });
       this.wake();
       this.send();
     });
+    return /** @type {Reply} */ (reply);
+  }
+
+  /**
+   * Send at once a request that replaces the one in flight.
+   * @param {Record<string, any>} request
+   * @returns {Promise<Reply | undefined>} undefined where it was replaced in its turn.
+   */
+  replace(request) {
+    return new Promise((resolve, reject) => this.#post({ id: 0, request, resolve, reject }));
   }
 
   send() {
-    if (this.inFlight || this.socket?.readyState !== WebSocket.OPEN) return;
-    this.inFlight = this.queue.shift();
-    if (!this.inFlight) return;
+    if (this.inFlight.length > 0 || this.socket?.readyState !== WebSocket.OPEN) return;
+    const next = this.queue.shift();
+    if (next) this.#post(next);
+  }
+
+  /** @param {Asked} asked */
+  #post(asked) {
     this.count += 1;
-    this.socket.send(JSON.stringify({ id: this.count, ...this.inFlight.request }));
+    asked.id = this.count;
+    this.inFlight.push(asked);
+    this.socket?.send(JSON.stringify({ id: asked.id, ...asked.request }));
   }
 
   /** @param {string} text */
   receive(text) {
     const reply = /** @type {Reply} */ (JSON.parse(text));
-    const asked = this.inFlight;
-    if (!asked || (reply.id !== null && reply.id !== this.count)) return;
-    this.inFlight = undefined;
-    asked.resolve(reply);
+    const place = reply.id === null ? 0 : this.inFlight.findIndex(({ id }) => id === reply.id);
+    if (place < 0 || place >= this.inFlight.length) return;
+    const settled = this.inFlight.splice(0, place + 1);
+    settled.pop()?.resolve(reply);
+    for (const replaced of settled) replaced.resolve(undefined);
     this.send();
   }
 }

@@ -1,4 +1,7 @@
 // What is being asked: the state of each tab, what was changed by hand, and one request at a time for the newest of it.
+//
+// A drag says where a handle is to be, whatever was before: the next place of the same handle does not wait for the
+// answer to the last one. So an answer comes for every frame even where its way takes longer than a frame.
 
 /**
  * @typedef {import("./types.js").State} State
@@ -27,7 +30,8 @@ export class Desk {
     this.states = new Map();
     /** @type {Wish | undefined} */
     this.wish = undefined;
-    this.busy = false;
+    this.busy = 0; // requests that are not answered yet
+    this.dragged = ""; // the handle of the one in flight, if it is a drag and nothing else
     this.partial = false; // the last answer left something out
     this.answers = 0;
     /** @type {ReturnType<typeof setTimeout> | undefined} */
@@ -98,18 +102,25 @@ export class Desk {
 
   /** Send the newest wish, if nothing is under way. */
   async pump() {
-    if (this.busy || !this.wish || !this.tab || !this.connection.free) return;
+    if (!this.wish || !this.tab) return;
     const { tab, wish } = this;
     const { edits, ...rest } = wish;
-    const state = this.states.has(tab) || Object.keys(edits).length > 0 ? { ...this.states.get(tab), ...edits } : {};
+    const edited = Object.keys(edits).length > 0;
+    const dragged = wish.drag && !edited ? `${tab} ${wish.drag.handle}` : "";
+    const onward = this.busy === 1 && dragged !== "" && dragged === this.dragged;
+    if (onward ? !this.connection.freeToReplace : this.busy > 0 || !this.connection.free) return;
+    const state = this.states.has(tab) || edited ? { ...this.states.get(tab), ...edits } : {};
+    const request = { do: "show", tab, state, ...rest };
     this.wish = undefined;
-    this.busy = true;
+    this.busy += 1;
+    this.dragged = dragged;
     try {
-      this.#take(tab, await this.connection.ask({ do: "show", tab, state, ...rest }), state);
+      const reply = await (onward ? this.connection.replace(request) : this.connection.ask(request));
+      if (reply) this.#take(tab, reply, state);
     } catch {
       this.wish ??= { ...wish, live: false };
     }
-    this.busy = false;
+    this.busy -= 1;
     this.pump();
   }
 

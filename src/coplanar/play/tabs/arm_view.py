@@ -145,6 +145,6 @@ def _say_branches(answer: Answer, solution: Solution) -> None:
 
 def _near_singular(solution: Solution) -> str:
     value = solution.singular_value()
-    if 1e-3 < 10.0 * value * math.pi:  # less than ten half turns
+    if 10.0 * math.pi * value > 1e-3:  # less than ten half turns
         return f"nearly singular: a millimetre at the tool is {1e-3 / value:.3g} rad in the joints"
     return "singular: there is a direction in which no rates of the joints move the tool"

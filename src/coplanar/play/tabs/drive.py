@@ -48,9 +48,7 @@ class DriveTab:
 
     name: ClassVar[str] = "drive"
     title: ClassVar[str] = "Drive"
-    about: ClassVar[str] = (
-        "A point follows a curve, or the robot drives to a pose; the poles foretell what gains do."
-    )
+    about: ClassVar[str] = "A point follows a curve, or the robot drives to a pose; the poles foretell what gains do."
     controls: ClassVar[tuple[AnyControl, ...]] = (
         Choice("controller", "The robot", group="Controller", default="point",
                options=(("point", "follows a curve"), ("polar", "drives to a pose"))),

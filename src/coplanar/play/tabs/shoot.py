@@ -19,9 +19,7 @@ class ShootTab:
 
     name: ClassVar[str] = "shoot"
     title: ClassVar[str] = "Shoot"
-    about: ClassVar[str] = (
-        "Drag the target: both arcs that hit it, the limit of the reach, and how drag bends it."
-    )
+    about: ClassVar[str] = "Drag the target: both arcs that hit it, the limit of the reach, and how drag bends it."
     controls: ClassVar[tuple[AnyControl, ...]] = (
         Slider("mass", "Mass m", group="Projectile", unit="kg", low=0.01, high=10.0, step=0.01, default=1.0,
                scale="log"),
