@@ -284,6 +284,18 @@ def test_a_scenario_of_the_catalog_opens_or_is_refused_with_the_reason(name):
     assert answered({"id": 1, "do": "show", "tab": tab, "state": state})["ok"]
 
 
+def test_driving_to_a_pose_opens_with_its_noise():
+    tab, state = opened(load("drive-to-pose"))
+    assert (tab, state["controller"], state["form"], state["noisy"], state["seed"]) == (
+        "drive",
+        "polar",
+        "smooth",
+        True,
+        1,
+    )
+    assert state["arrive_within"] == 0.02
+
+
 def test_what_has_no_place_in_the_playground_is_refused():
     scenario = load("track-astroid")
     assert opened(scenario)[1]["kd"] == 0.5

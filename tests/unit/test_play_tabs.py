@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from coplanar.curves import HeldPoint
 from coplanar.play import Session
 from coplanar.play.controls import checked_state
 from coplanar.play.tabs import TABS
-from coplanar.simulation import simulate
+from coplanar.simulation import Noise, simulate
 
 SESSION = Session()
 
@@ -54,6 +55,11 @@ STATES = [
     ("arm", {"curve": "lemniscate", "size": 1.0, "l2": 1.0, "curve_x": 0.0, "curve_y": 0.0}),
     ("drive", {"curve": "stroke"}),
     ("drive", {"start": "free", "limited": True, "compare": True}),
+    ("drive", {"controller": "polar", "start": "free"}),
+    (
+        "drive",
+        {"controller": "polar", "start": "free", "form": "smooth", "k_beta": 1.0, "noisy": True, "compare": True},
+    ),
     ("base", {"layout": "swerve", "omega": 0.0, "vx": 0.0, "vy": 0.0}),
     ("base", {"layout": "custom"}),
     ("motion", {"then": [{"v": -1.0}, {"omega": 0.0, "alpha": 0.0}]}),
@@ -340,3 +346,115 @@ def test_a_shot_shows_its_errors_against_the_step():
 def test_a_method_that_diverges_is_said_to():
     answer = show("lab", {"motion": "shot", "drag": 0.5, "speed": 60.0, "step": 1.0, "duration": 10.0})
     assert "Euler diverges at this step" in said(answer, "no")
+
+
+POLAR = {"controller": "polar", "start_x": -0.5, "start_y": -0.4, "heading": 0.3}
+
+
+def test_a_robot_drives_to_the_pose_under_the_hand():
+    state = show("drive", POLAR)["state"]
+    moved = show("drive", state, drag={"handle": "goal", "to": [-1.0, 0.5]})["state"]
+    turned = show("drive", moved, drag={"handle": "goal_turn", "to": [-1.0, 5.0]})["state"]
+    assert (turned["goal_x"], turned["goal_y"], turned["goal_heading"]) == (-1.0, 0.5, pytest.approx(math.pi / 2))
+    answer = show("drive", turned)
+    goal = coplanar.Pose(-1.0, 0.5, turned["goal_heading"])
+    controller = coplanar.PolarController(goal, 3.0, 8.0, -1.5, arrive_within=0.01)
+    start = coplanar.Pose(-0.5, -0.4, 0.3)
+    run = simulate(coplanar.Unicycle(), controller, duration=10.0, step=0.02, start=start)
+    read = numbers(answer)
+    assert read["last_error"] == run["rho"][-1] < 0.01
+    assert abs(read["heading_error"]) < 1e-3
+    assert (read["end_x"], read["end_y"]) == (run["x"][-1], run["y"][-1])
+    assert read["margin"] == controller.stability(0.02).margin
+    assert [series["title"] for series in answer["series"]][2:] == ["Distance to the goal", "Bearings"]
+
+
+def test_each_law_of_driving_to_a_pose_has_gains_of_its_own():
+    smooth = show("drive", POLAR | {"form": "smooth"}, changed="form")["state"]
+    assert [smooth[key] for key in ("k_rho", "k_alpha", "k_beta")] == [3.0, 6.0, 1.0]
+    assert "k_rho k_beta < 0" in " ".join(said(show("drive", smooth | {"form": "linear"}), "warn"))
+    back = show("drive", smooth | {"controller": "point"}, changed="controller")["state"]
+    assert back["start"] == "reference"
+
+
+def test_noise_is_the_same_at_every_look_and_on_the_way_to_it():
+    """The picture does not flicker: what is shown while something is dragged is the beginning of the whole run."""
+    state = {"noisy": True, "duration": 20.0}
+    rest, live = show("drive", state), show("drive", state, live=True)
+    assert show("drive", state) == rest
+    v = [answer["series"][0] for answer in (rest, live)]
+    known = dict(zip(v[0]["x"]["values"], v[0]["lines"][0]["values"], strict=True))
+    seen = [(t, value) for t, value in zip(v[1]["x"]["values"], v[1]["lines"][0]["values"], strict=True) if t in known]
+    assert len(seen) > 10
+    assert all(value == pytest.approx(known[t], abs=1e-4) for t, value in seen)
+    noise = Noise(0.005, 0.01, 0.02, 0.1)
+    tracker, reference = coplanar.PointTracker((0.1, 0.0), kp=8.0), coplanar.Astroid(1.0).over(20.0)
+    run = simulate(coplanar.Unicycle(), tracker, reference, step=0.02, noise=noise)
+    assert numbers(rest)["end_x"] == run["x"][-1]
+    assert numbers(show("drive", state | {"seed": 1.0}))["end_x"] != run["x"][-1]
+    assert numbers(show("drive", state | {"noisy": False}))["largest_error"] < numbers(rest)["largest_error"]
+
+
+def test_a_loop_that_turns_by_thousands_of_radians_is_answered():
+    fast = {"px": 0.005, "kp": 200.0, "step": 0.2, "duration": 30.0, "compare": True}
+    for method in ("euler", "rk4", "exact"):
+        start = time.perf_counter()
+        answer = show("drive", fast | {"method": method})
+        assert numbers(answer)["largest_omega"] > 1e3
+        assert time.perf_counter() - start < 5.0
+        for layer in layers(answer, "body"):
+            assert np.isfinite(layer["poses"]).all()
+
+
+def test_every_line_is_named():
+    names = {
+        tab: [line["label"] for line in show(tab)["legends"].get("main", ())] for tab in ("motion", "shoot", "lab")
+    }
+    assert names["motion"] == ["exact, clothoid", "Euler, 20 steps", "RK4, 20 steps"]
+    assert names["shoot"] == ["low arc", "high arc", "limit of the reach"]
+    assert names["lab"] == ["exact", "Euler", "RK2 (midpoint)", "RK4"]
+    cusp = show("motion", {"preset": "cusp"}, changed="preset")
+    assert cusp["legends"]["main"][0] == {"label": "exact, general curve with a cusp", "role": "trail"}
+    assert "main" not in show("drive")["legends"]
+    compared = show("drive", {"compare": True})
+    assert [line["label"] for line in compared["legends"]["main"]] == ["way of P, Euler", "Euler", "RK4", "exact arcs"]
+    for tab, answer in (("motion", show("motion")), ("drive", compared), ("lab", show("lab"))):
+        drawn = {layer["role"] for layer in answer["pictures"]["main"]["layers"]}
+        assert {line["role"] for line in answer["legends"]["main"]} <= drawn, tab
+
+
+def test_the_integrators_stay_while_a_short_motion_is_dragged():
+    state = show("motion")["state"]
+    moved = show("motion", state, drag={"handle": "end", "to": [2.0, -1.0]})
+    assert moved["complete"]
+    assert len(moved["legends"]["main"]) == 3
+    long = show("motion", state | {"step": 0.02}, drag={"handle": "end", "to": [2.0, -1.0]})
+    assert not long["complete"]
+    assert len(long["legends"]["main"]) == 1
+
+
+def test_three_limited_links_say_at_once_where_a_curve_is_beyond_them():
+    state = {"links": "3", "limited": True, "curve": "circle", "curve_x": -6.0}
+    start = time.perf_counter()
+    answer = show("arm", state)
+    assert time.perf_counter() - start < 10.0  # to search for a way at every point takes minutes
+    assert said(answer) == ["no posture within the limits reaches 100 % of the curve: the arm cannot follow it"]
+    (lost,) = layers(answer, "cross")[-1:]
+    assert len(lost["points"][0]) == 2 * 121
+    dragged = show("arm", answer["state"], drag={"handle": "curve", "to": [-5.0, 0.0]})
+    assert [one["id"] for one in dragged["handles"]] == ["curve"]
+    assert dragged["state"]["curve_x"] == -5.0
+    followed = show("arm", {"links": "3", "limited": True, "curve": "circle"})
+    assert "every joint keeps its limits" in said(followed, "good")
+
+
+def test_a_singular_posture_is_said_to_be_one():
+    near, at = show("arm", {"target_x": 1.6999, "target_y": 0.0}), show("arm", {"target_x": 1.7, "target_y": 0.0})
+    assert "a millimetre at the tool is" in said(near, "warn")[0]
+    assert said(at, "warn")[-1].startswith("singular: there is a direction")
+
+
+def test_a_launch_that_hits_nothing_is_still_pointed():
+    answer = show("shoot", {"by": "angle", "angle": -1.4})
+    (arrow,) = layers(answer, "arrows")
+    assert arrow["vectors"][0][2:] == pytest.approx(handle(answer, "launch")["at"], rel=1e-4)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import gc
 import json
 import os
 import socket
@@ -64,14 +65,22 @@ def play(
     server = Playground(settings(app, limits), partial(_welcome, address, host, browser, say))
     switch = sys.getswitchinterval()
     sys.setswitchinterval(SWITCH)
-    threading.Thread(target=session.warm, daemon=True).start()
+    threading.Thread(target=_warm, args=(session,), daemon=True).start()
     try:
         server.run(sockets=[listener])
     except KeyboardInterrupt:
         say("Stopped.")
     finally:
+        gc.unfreeze()
         sys.setswitchinterval(switch)
         listener.close()
+
+
+def _warm(session: Session) -> None:
+    """Answer everything once; what is there then stays, and the collector need not look through it between answers."""
+    session.warm()
+    gc.collect()
+    gc.freeze()
 
 
 class Playground(uvicorn.Server):

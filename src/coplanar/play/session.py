@@ -14,6 +14,7 @@ from coplanar.play.tab import Tab
 from coplanar.play.tabs import TABS
 
 REACH = 1000.0  # [m] nothing is dragged further
+WARMING = [[0.5, 0.5], [0.6, 0.7], [0.8, 0.7], [0.9, 0.5]]  # a stroke
 PRESSES = 100  # of an arrow key in one request
 KEYS = ("id", "do", "tab", "state", "live", "changed", "drag", "nudge", "as")
 
@@ -55,7 +56,9 @@ class Session:
     def warm(self) -> None:
         """Import what the tabs need late, and answer each once, so that the first user does not wait."""
         for name in TABS:
-            self.handle({"id": 0, "do": "show", "tab": name})
+            for state in ({}, {"curve": "stroke", "stroke": WARMING}):
+                for live in (False, True):
+                    self.handle({"id": 0, "do": "show", "tab": name, "state": state, "live": live})
 
 
 def _answered(request: dict[str, Any]) -> dict[str, Any]:

@@ -67,7 +67,7 @@ def show(answer: Answer, segments: list[Segment], start: Pose, state: State, *, 
 
 def is_long(segments: list[Segment], state: State) -> bool:
     """Whether the integrators take more steps than there is time for in a frame."""
-    return sum(segment.duration for segment in segments) > LIVE_STEPS * state["step"]
+    return sum(float(segment.duration) for segment in segments) > LIVE_STEPS * float(state["step"])
 
 
 def _legend(answer: Answer, segments: list[Segment], stepped: dict[str, tuple[np.ndarray, Pose]]) -> None:
