@@ -35,6 +35,9 @@ NAMES = {
 }
 
 
+Stepped = dict[str, tuple[np.ndarray, Pose]]  # times and poses of an integrator
+
+
 def show(answer: Answer, segments: list[Segment], start: Pose, state: State, *, live: bool) -> None:
     """Everything about one chain."""
     program = Program(segments)
@@ -57,11 +60,12 @@ def show(answer: Answer, segments: list[Segment], start: Pose, state: State, *, 
     size = 0.06 * half
     robot = size * np.array([(1.2, 0.0), (-0.8, 0.8), (-0.5, 0.0), (-0.8, -0.8)])
     answer.pictures["main"] = scene.trail(table[:, :2]).body(table, robot)
-    _legend(answer, segments, stepped)
-    _handles(answer, start, program.end(start), half)
+    kinds, end = [segment.kind for segment in segments], program.end(start)
+    _legend(answer, segments, kinds, stepped)
+    _handles(answer, start, end, half)
     _plot(answer, program, t)
-    _say(answer, segments)
-    _read(answer, program, segments, start)
+    _say(answer, segments, kinds)
+    _read(answer, segments, kinds, end)
     _compare(answer, program, start, stepped)
 
 
@@ -70,10 +74,11 @@ def is_long(segments: list[Segment], state: State) -> bool:
     return sum(float(segment.duration) for segment in segments) > LIVE_STEPS * float(state["step"])
 
 
-def _legend(answer: Answer, segments: list[Segment], stepped: dict[str, tuple[np.ndarray, Pose]]) -> None:
+def _legend(answer: Answer, segments: list[Segment], kinds: list[str], stepped: Stepped) -> None:
     """The curve by its own name, and the integrators."""
-    kinds = [CURVES[one.kind] + (" with a cusp" if math.isfinite(one.cusp_time) else "") for one in segments]
-    answer.name("exact, " + ", ".join(dict.fromkeys(kinds)), "trail")
+    cusps = (" with a cusp" if math.isfinite(segment.cusp_time) else "" for segment in segments)
+    names = (CURVES[kind] + cusp for kind, cusp in zip(kinds, cusps, strict=True))
+    answer.name("exact, " + ", ".join(dict.fromkeys(names)), "trail")
     for method, (every, _) in stepped.items():
         answer.name(f"{SHOWN[method]}, {len(every) - 1} steps", ROLES[method], dashed=True)
 
@@ -98,35 +103,35 @@ def _plot(answer: Answer, program: Program, t: np.ndarray) -> None:
     answer.plot("Curvature", "1/m", time, {"kappa": np.where(steep, curvature, np.nan)})
 
 
-def _say(answer: Answer, segments: list[Segment]) -> None:
-    for i, segment in enumerate(segments, 1):
+def _say(answer: Answer, segments: list[Segment], kinds: list[str]) -> None:
+    for i, (segment, kind) in enumerate(zip(segments, kinds, strict=True), 1):
         which = f"segment {i}" if len(segments) > 1 else "the path"
-        answer.say("note", f"{which} {NAMES[segment.kind]}")
+        answer.say("note", f"{which} {NAMES[kind]}")
         if math.isfinite(segment.cusp_time):
             answer.say("warn", f"{which} reverses in a cusp {segment.cusp_time:.4g} s after it begins: v changes sign")
 
 
-def _read(answer: Answer, program: Program, segments: list[Segment], start: Pose) -> None:
-    end = program.end(start)
+def _read(answer: Answer, segments: list[Segment], kinds: list[str], end: Pose) -> None:
     for name in ("x", "y", "theta"):
         answer.read(f"end_{name}", f"{name} at the end", float(getattr(end, name)), _unit(name), "End")
-    answer.read("duration", "duration", float(program.duration), "s", "End")
-    for i, segment in enumerate(segments, 1):
+    answer.read("duration", "duration", sum(float(segment.duration) for segment in segments), "s", "End")
+    for i, (segment, kind) in enumerate(zip(segments, kinds, strict=True), 1):
         group = f"Segment {i}"
-        answer.read(f"kind_{i}", "curve", segment.kind, "", group)
+        answer.read(f"kind_{i}", "curve", kind, "", group)
         answer.read(f"first_curvature_{i}", "curvature at its start", float(segment.curvature(0.0)), "1/m", group)
         last = float(segment.curvature(segment.duration))
         answer.read(f"last_curvature_{i}", "curvature at its end", last, "1/m", group)
 
 
-def _compare(answer: Answer, program: Program, start: Pose, stepped: dict[str, tuple[np.ndarray, Pose]]) -> None:
+def _compare(answer: Answer, program: Program, start: Pose, stepped: Stepped) -> None:
     """Distance of the integrators from the exact path, at their own times."""
     lines: dict[str, np.ndarray] = {}
-    t = np.zeros(1)
-    for method, (every, poses) in stepped.items():
-        rows = _thinned(len(every))
-        t = every[rows]
-        lines[method] = np.hypot(*(poses.position[rows] - program.pose(start, t).position).T)
+    every = next((times for times, _ in stepped.values()), np.zeros(1))
+    rows = _thinned(len(every))
+    t = every[rows]
+    exact = program.pose(start, t).position if stepped else None
+    for method, (_, poses) in stepped.items():
+        lines[method] = np.hypot(*(poses.position[rows] - exact).T)
         answer.read(f"apart_{method}", f"{method} from exact, at the end", float(lines[method][-1]), "m", "Integrators")
     if lines:
         answer.plot("Distance from the exact path", "m", ("time [s]", t), lines, roles=ROLES)
