@@ -44,7 +44,7 @@ def on(engine, law, begin, inputs, keep):
 ALL = pytest.mark.parametrize(
     "engine", ["call", "text", pytest.param("compiled", marks=NEEDS_NUMBA), pytest.param("jax", marks=NEEDS_JAX)]
 )
-SIZES = [((), 1), ((), 7), ((), 700), ((1,), 255), ((3,), 1), ((50,), 10), ((7,), 100), ((2, 1, 3), 257), ((40,), 33)]
+SIZES = [((), 1), ((), 7), ((), 1100), ((1,), 255), ((3,), 1), ((50,), 10), ((7,), 100), ((2, 1, 3), 257), ((40,), 33)]
 
 
 @ALL
@@ -57,7 +57,8 @@ def test_it_is_the_loop(engine, lead, steps):
         right = step_by_step(se2.step, begin, inputs, lead)
         whole = on(engine, se2.step, begin, inputs, "all")
         for answer, column in zip(whole, right, strict=True):
-            assert np.max(np.abs(answer - column)) <= 4 * steps * EPS
+            lever = max(1.0, np.max(np.abs(column)))  # what the rounding of a heading swings
+            assert np.max(np.abs(answer - column)) <= 4 * steps * EPS * lever
         for answer, column in zip(on(engine, se2.step, begin, inputs, "end"), whole, strict=True):
             assert np.array_equal(np.broadcast_to(answer, lead), np.broadcast_to(column[..., -1], lead))
 

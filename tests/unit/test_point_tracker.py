@@ -66,6 +66,9 @@ def test_the_demo_is_exactly_on_the_boundary():
 def test_the_demo_with_any_better_plant_is_unstable_on_the_move():
     tracker = PointTracker((0.05, 0.0), kp=100.0, kd=0.5)
     assert tracker.stability(0.01, speed=0.9).status is Stability.BOUNDARY
+    fast = PointTracker((0.05, 0.0), kp=5.0, kd=0.1).stability(0.01, speed=10.0)
+    assert fast.status is Stability.BOUNDARY
+    assert fast.warnings[0].startswith("on the stability boundary on the move: h V/|px| is 2 and has to be below 2")
     for method in ("midpoint", "heun", "rk4", "exact"):
         report = tracker.stability(0.01, method=method, speed=0.9)
         assert report.status is Stability.UNSTABLE

@@ -34,9 +34,14 @@ def tracker_warnings(
     px, py, kd = tracker.px, tracker.py, tracker.kd
     ratio, omega = np.abs(py / px), tracker.omega_for(error)
     needs = "h kp + 2 kd + h^2 ki/2 is {:.6g} and has to be below 2"
+    moving = np.greater(turn, 0.0) & ~np.isclose(gain, 2.0, rtol=0.0, atol=1e-6)  # not the gains, but the speed
     inside = (status == Stability.UNSTABLE) & np.less(gain, 2.0) & np.less(np.abs(kd), 1.0)
     cases = (
-        (status == Stability.BOUNDARY, f"on the stability boundary: {needs.format(_most(gain))}"),
+        ((status == Stability.BOUNDARY) & ~moving, f"on the stability boundary: {needs.format(_most(gain))}"),
+        (
+            (status == Stability.BOUNDARY) & moving,
+            f"on the stability boundary on the move: {_on_the_move(gain, turn, lead)}",
+        ),
         ((status == Stability.UNSTABLE) & np.greater_equal(gain, 2.0), f"unstable: {needs.format(_most(gain))}"),
         (np.greater_equal(np.abs(kd), 1.0), f"unstable: |kd| is {_most(np.abs(kd)):.6g} and has to be below 1"),
         (inside & np.greater(turn, 0.0), f"unstable on the move: {_on_the_move(gain, turn, lead)}"),

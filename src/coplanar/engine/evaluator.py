@@ -12,7 +12,7 @@ import functools
 import math
 import threading
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -26,6 +26,14 @@ _FLOAT = frozenset((float,))
 _FLOAT64 = np.dtype(np.float64)
 _FLOAT_PRIMITIVES = {name: getattr(scalars, name) for name in (*PRIMITIVES, "integral")}
 _float_laws: dict[Any, Any] = {}
+
+
+class _Facts(NamedTuple):
+    """How many rows a compiled loop pays from, how many results there are, and whether they come as a tuple."""
+
+    least: int
+    results: int
+    many: bool
 
 
 class Evaluator:
@@ -54,7 +62,8 @@ class Evaluator:
         self._kernel: Any = None
         self._one: Callable[..., Any] | None = None
         self._lock = threading.Lock()
-        functools.update_wrapper(self, law)
+        self._known: _Facts | None = None
+        functools.update_wrapper(self, law, updated=())
 
     def __call__(self, *args: Any) -> Any:
         """Evaluate the law; see the class for what comes out.
@@ -68,7 +77,7 @@ class Evaluator:
             try:
                 return self._one(args) if self._one else self.on_floats(*args)
             except (ArithmeticError, ValueError):  # where math raises, arrays answer inf or NaN
-                return self._on_one_row(args)
+                return self._by_arrays(args)
         if any(is_foreign(a) for a in args):
             return self._on_foreign(args)
         inputs = _as_arrays(args)
@@ -103,14 +112,14 @@ class Evaluator:
         shape = self._shape(inputs)
         if out is None:
             return self._compiled(inputs, shape)
-        _check_out(out, self._results, shape, inputs[0].dtype)
+        _check_out(out, self._facts.results, shape, inputs[0].dtype)
         self.kernel().run_into(out, inputs, shape)
-        return out if self._returns_tuple else out[0]
+        return out if self._facts.many else out[0]
 
     def _compiled(self, inputs: tuple[np.ndarray, ...], shape: tuple[int, ...]) -> Any:
-        outs = tuple([np.empty(shape, inputs[0].dtype) for _ in range(self._results)])
+        outs = tuple([np.empty(shape, inputs[0].dtype) for _ in range(self._facts.results)])
         self.kernel().run(inputs, outs, shape)
-        return outs if self._returns_tuple else outs[0]
+        return outs if self._facts.many else outs[0]
 
     def into(self, out: tuple[np.ndarray, ...], *args: Any) -> None:
         """Evaluate NumPy rows and write them into these arrays: one for each result, of the broadcast shape.
@@ -127,36 +136,35 @@ class Evaluator:
             array[...] = part
 
     def _compiles(self, rows: int) -> bool:
-        return pays(rows, self._kernel is not None, least=self._compiled_rows)
+        return pays(rows, self._kernel is not None, least=self._facts.least)
 
     def _on_numbers(self, args: tuple[float, ...]) -> Any:
         """One row where the calls around it are to be compiled at once, or are to give the same digits."""
-        if mode.get() == AT_ONCE and self._one is None and self._compiled_rows == 1 and can_compile():
+        if mode.get() == AT_ONCE and self._one is None and self._facts.least == 1 and can_compile():
             self._one = self.kernel().one("rows", (args,))
+        one = self._one if mode.get() != BY_ROWS_ALONE else None
         try:
-            return self._one(args) if self._one and mode.get() != BY_ROWS_ALONE else self.on_floats(*args)
+            return one(args) if one else self.on_floats(*args)
         except (ArithmeticError, ValueError):
-            return self._on_one_row(args)
+            return self._by_arrays(args)
 
-    @functools.cached_property
-    def _compiled_rows(self) -> int:
-        return 1 if operations(self.law) >= LONG else COMPILED_ROWS
-
-    @functools.cached_property
-    def _one_answer(self) -> Any:
-        return self(*(0.5,) * self.law.__code__.co_argcount)
-
-    @functools.cached_property
-    def _returns_tuple(self) -> bool:
-        return isinstance(self._one_answer, tuple)
-
-    @functools.cached_property
-    def _results(self) -> int:
-        return len(self._one_answer) if self._returns_tuple else 1
+    def _by_arrays(self, args: tuple[float, ...]) -> Any:
+        answer = self.on_text(*args)
+        return tuple(float(a) for a in answer) if isinstance(answer, tuple) else float(answer)
 
     def on_namespace(self, namespace: Any) -> Callable[..., Any]:
         """The law over another array library's namespace."""
         return _foreign_law(self.law, namespace)
+
+    @property
+    def _facts(self) -> _Facts:
+        """Of the law; found out once."""
+        if self._known is None:
+            answer = self._by_arrays((0.5,) * self.law.__code__.co_argcount)
+            many = isinstance(answer, tuple)
+            least = 1 if operations(self.law) >= LONG else COMPILED_ROWS
+            self._known = _Facts(least, len(answer) if many else 1, many)
+        return self._known
 
     def kernel(self) -> Any:
         """The law's compiled loops; made once."""
@@ -177,10 +185,6 @@ class Evaluator:
             names = self.law.__code__.co_varnames[: len(arrays)]
             given = "shapes " + ", ".join(str(tuple(a.shape)) for a in arrays)
             raise InvalidShape(", ".join(names), given, "shapes that broadcast as in NumPy") from None
-
-    def _on_one_row(self, args: tuple[Any, ...]) -> Any:
-        answer = self.on_text(*args)
-        return tuple(float(a) for a in answer) if isinstance(answer, tuple) else float(answer)
 
     def _on_foreign(self, args: tuple[Any, ...]) -> Any:
         xp, arrays = alike(args)

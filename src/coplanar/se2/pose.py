@@ -198,7 +198,8 @@ class Pose(Triple):
             >>> Pose(1.0, 0.0, 0.0).integrate(Twist(2.0, 0.0, 0.0), 0.5)
             Pose(x=2.0, y=0.0, theta=0.0)
         """
-        checks.instance("twist", twist, Twist)
+        if type(twist) is not Twist:  # asked here, as this is the call of a control loop
+            checks.instance("twist", twist, Twist)
         dt = checks.real("duration", duration)
         return Pose._of(*_integrate(self.x, self.y, self.theta, twist.vx, twist.vy, twist.omega, dt))
 

@@ -160,7 +160,7 @@ class Kernel(Loops):
         paces = tuple(int(array.size > 1) for array in inputs)
         strides = tuple(steps if array.size > steps else 0 for array in inputs)
         ins = tuple(
-            _read_only(a if stride else (np.tile(a, group) if group > 1 else a) if pace else _spread(a, WIDTH))
+            _read_only(a if stride else (np.tile(a, group) if group > 1 else a) if pace else _spread(a, walks.TILE))
             for a, stride, pace in zip(inputs, strides, paces, strict=True)
         )
         constants = (("KEEP", outputs[0].size > rows),)
@@ -206,7 +206,7 @@ def _slabs(shape, most):
 
 def _group(steps):
     """How many whole rows of steps make a tile: a count of steps that fills vectors, if one does."""
-    most = max(1, WIDTH // max(1, steps))
+    most = max(1, walks.TILE // max(1, steps))
     even = VECTOR // math.gcd(steps, VECTOR)
     return most - most % even if most >= even else most
 

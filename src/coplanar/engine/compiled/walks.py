@@ -17,7 +17,9 @@ from numba import prange
 
 from coplanar.engine.compiled.columns import WIDTH, gather, get, put, reach, scatter
 
-TURN, X, Y = 0, 1, 2  # columns of the table
+LONG = 4  # columns of a table that make one of a tile: the longer the tile, the less often its loops begin
+TILE = LONG * WIDTH
+TURN, X, Y = 0, LONG, 2 * LONG  # where the columns begin
 
 
 def headings(table, first, count, heading):
@@ -78,7 +80,8 @@ def ways(table, poses, ins, strides, paces, row, first, rows, count):
     doubtful = 0 if total == total else 1  # NaN is what does not equal itself
     for i in range(rows * count):
         x, y, _ = law(0.0, 0.0, get(table, TURN, i), *reach(ins, strides, paces, row, first, i))  # noqa: F821
-        put(table, X, i, (x, y))
+        put(table, X, i, x)
+        put(table, Y, i, y)
         doubtful += 0 if x + y == x + y else 1
     if doubtful:
         for i in range(rows * count):
@@ -86,18 +89,19 @@ def ways(table, poses, ins, strides, paces, row, first, rows, count):
         turned(table, poses, rows, count)
         for i in range(rows * count):
             x, y, _ = safe_law(0.0, 0.0, get(table, TURN, i), *reach(ins, strides, paces, row, first, i))  # noqa: F821
-            put(table, X, i, (x, y))
+            put(table, X, i, x)
+            put(table, Y, i, y)
 
 
 def walk_rows(begin, hold, ins, strides, paces, outs, size, row, rows):
     """A few rows from their first poses to the end: one tile of all, or one row tile by tile."""
     steps = size[1]
-    table, poses = np.empty((3, WIDTH)), np.empty((4, WIDTH))  # heading, heading after the tile, x, y
+    table, poses = np.empty((3 * LONG, WIDTH)), np.empty((4, TILE))  # heading, heading after the tile, x, y
     for r in range(rows):
         poses[2, r], poses[3, r], poses[0, r] = gather(begin, hold, row + r, 0)
     xs, ys, angles = (outs[0],), (outs[1],), (outs[2],)
-    for first in range(0, steps, WIDTH):
-        count = min(WIDTH, steps - first)
+    for first in range(0, steps, TILE):
+        count = min(TILE, steps - first)
         ways(table, poses, ins, strides, paces, row, first, rows, count)
         for r in range(rows):
             there = (row + r) * (steps + 1) + first
