@@ -104,7 +104,10 @@ def until(page, expression, seconds=10.0):
 
 def rest(page):
     """Wait until nothing is asked, nothing is missing, and the view stands still."""
-    quiet = "!playground.desk.busy && !playground.desk.wish && !playground.desk.timer && !playground.stage.asked"
+    quiet = (
+        "!playground.desk.busy && !playground.desk.wish && !playground.desk.timer && !playground.stage.asked"
+        " && !playground.beside.work"
+    )
     until(page, quiet)
     page.wait_for_timeout(30)
     until(page, quiet)

@@ -58,6 +58,26 @@ def test_the_target_of_a_shot_follows_the_mouse(visit):
     assert (state_of(page)["target_x"], state_of(page)["target_y"]) == pytest.approx((40.0, 12.0), abs=1.0)
 
 
+def test_numbers_and_sliders_are_those_of_the_last_answer_while_a_handle_is_held(visit):
+    page = visit("base")
+    page.get_by_role("combobox", name="Layout").select_option("mecanum")
+    rest(page)
+    page.mouse.move(*centre_of(page, "wheel_1"))
+    page.mouse.down()
+    page.mouse.move(*pixel_of(page, (0.45, 0.12)), steps=9)
+    until(page, "!playground.desk.busy && !playground.desk.wish && !playground.beside.work")
+    assert page.evaluate("playground.stage.held()")
+    state = state_of(page)
+    assert state["layout"] == page.get_by_role("combobox", name="Layout").input_value() == "custom"
+    assert [state["wheels"][0][axis] for axis in "xy"] == pytest.approx([0.45, 0.12], abs=0.02)
+    boxes = [float(page.locator(f"#control-wheels-0-{axis}-box").input_value()) for axis in "xy"]
+    assert boxes == pytest.approx([state["wheels"][0][axis] for axis in "xy"], rel=1e-4)
+    shown = page.locator("[data-readout]").all_inner_texts()
+    page.mouse.up()
+    rest(page)
+    assert page.locator("[data-readout]").all_inner_texts() == shown
+
+
 def test_arrow_keys_move_a_focused_handle(visit):
     page = visit("arm")
     handle = page.get_by_role("slider", name="Tool")

@@ -11,7 +11,7 @@ from tests.browser.conftest import rest, state_of
 from tests.browser.hands import answered, centre_of, walked
 
 HANDLES = {"arm": "tool", "drive": "curve", "base": "velocity", "motion": "end", "shoot": "target", "lab": "launch"}
-SECONDS = {"warm": 0.3, "measured": 0.8}
+SECONDS = {"warm": 0.2, "measured": 0.7}
 DRAG = """([name, seconds]) => new Promise((done) => {
     const { desk, stage, connection } = playground;
     const handle = document.querySelector(`[data-handle=${name}]`);

@@ -7,6 +7,7 @@ import { matters, Panel } from "./controls.js";
 import { Copier } from "./copying.js";
 import { Desk } from "./desk.js";
 import { byId, write } from "./elements.js";
+import { Pace } from "./pace.js";
 import { Clock } from "./player.js";
 import { Readings } from "./readings.js";
 import { Stage } from "./stage.js";
@@ -19,6 +20,7 @@ import { Transport } from "./transport.js";
  * @typedef {import("./types.js").State} State
  */
 
+const BESIDE = 30; // [ms] from one writing of the numbers and curves to the next, while a hand moves the picture
 const GONE = 6000; // [ms] until a notice that needs nothing done goes away
 
 class App {
@@ -37,6 +39,7 @@ class App {
     this.clock = new Clock(() => this.tick());
     this.transport = new Transport(this.clock);
     this.charts = new Charts(byId("series", HTMLElement), this.clock);
+    this.beside = new Pace(BESIDE);
     this.copier = new Copier();
     this.bar = new Tabs(byId("tabs", HTMLElement), panel, (name) => this.choose(name));
     this.panel = new Panel(byId("controls", HTMLElement), (key, value, live) => this.edit(key, value, live));
@@ -145,13 +148,18 @@ class App {
     if (!this.defaults.has(tab.name) && !this.linked) this.defaults.set(tab.name, JSON.stringify(shown.state));
     this.linked = false;
     if (fresh) this.build(tab);
-    this.panel.update(shown.state);
-    this.readings.say(shown.sentences);
-    this.readings.read(shown.readouts);
+    const held = !fresh && this.stage.held();
+    this.panel.update(shown.state, held);
     this.clock.span(longest(shown));
     if (fresh) this.clock.time = this.clock.end;
     this.stage.show(shown, `${tab.title}: ${shown.sentences.map((sentence) => sentence.text).join("; ")}`);
-    this.charts.show(shown.series);
+    const beside = () => {
+      this.readings.say(shown.sentences);
+      this.readings.read(shown.readouts);
+      this.charts.show(shown.series);
+    };
+    if (held) this.beside.soon(beside);
+    else this.beside.now(beside);
     this.transport.show();
     this.ink(tab, shown.state);
     document.documentElement.dataset.tab = tab.name;
@@ -213,7 +221,7 @@ class App {
       return;
     }
     this.tell(`${sentence}.`);
-    this.panel.update(this.desk.state);
+    this.panel.update(this.desk.state, false);
   }
 
   /** Time passes, or the playing starts or stops. */

@@ -19,6 +19,14 @@ export function matters(control, state) {
   return Object.entries(control.only ?? {}).every(([key, values]) => values.includes(state[key]));
 }
 
+/**
+ * @param {any} a
+ * @param {any} b
+ */
+function same(a, b) {
+  return a === b || (typeof a === "object" && JSON.stringify(a) === JSON.stringify(b));
+}
+
 /** Controls by group, shown where they matter. */
 export class Panel {
   /**
@@ -49,9 +57,17 @@ export class Panel {
     this.root.replaceChildren(...groups, again);
   }
 
-  /** @param {State} state */
-  update(state) {
+  /**
+   * @param {State} state
+   * @param {boolean} held A hand moves the picture: what is as it was stays untouched.
+   */
+  update(state, held) {
+    const changed = this.parts.filter(({ control: { key } }) => !same(state[key], this.state[key]));
     this.state = state;
+    if (held && changed.every(({ control }) => control.kind === "slider")) {
+      for (const { control, widget: part } of changed) part.set(state[control.key]);
+      return;
+    }
     for (const { control, widget: part } of this.parts) {
       part.element.hidden = !matters(control, state);
       part.set(state[control.key]);
