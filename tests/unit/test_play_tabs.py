@@ -448,6 +448,22 @@ def test_three_limited_links_say_at_once_where_a_curve_is_beyond_them():
     assert "every joint keeps its limits" in said(followed, "good")
 
 
+def test_a_limit_takes_the_other_one_along():
+    state = show("arm", {"limited": True})["state"]
+    moved = show("arm", state | {"lower1": 2.5}, changed="lower1")["state"]
+    assert (moved["lower1"], moved["upper1"]) == (2.5, 2.5)
+    back = show("arm", moved | {"upper1": -1.0}, changed="upper1")["state"]
+    assert (back["lower1"], back["upper1"]) == (-1.0, -1.0)
+    kept = show("arm", state | {"lower1": 1.5}, changed="lower1")["state"]
+    assert (kept["lower1"], kept["upper1"]) == (1.5, 2.0)
+
+
+@pytest.mark.parametrize("tab", ["arm", "drive"])
+def test_a_line_that_is_too_short_is_asked_for_again(tab):
+    for stroke in ([], [[0.5, 0.5], [0.6, 0.5], [0.7, 0.5]]):
+        assert "draw a curve" in said(show(tab, {"curve": "stroke", "stroke": stroke}), "note")[-1]
+
+
 def test_a_singular_posture_is_said_to_be_one():
     near, at = show("arm", {"target_x": 1.6999, "target_y": 0.0}), show("arm", {"target_x": 1.7, "target_y": 0.0})
     assert "a millimetre at the tool is" in said(near, "warn")[0]

@@ -9,6 +9,7 @@ import { make, write } from "./elements.js";
  */
 
 const APART = 3; // [px] between neighbours
+const FEWEST = 4; // points of a line that can be followed
 const DIGITS = 1e4; // a tenth of a millimetre
 const STEP = 6; // [px] that an arrow key moves the pen
 const STRIDE = 5; // steps with the shift key
@@ -104,7 +105,7 @@ export class Ink {
     this.drawing = false;
     const { wanted, view, line } = this;
     this.changed();
-    if (!wanted || !view || line.length < 2) return;
+    if (!wanted || !view || line.length < FEWEST) return;
     const stride = Math.ceil(line.length / wanted.most);
     const kept = line.filter((_, i) => i % stride === 0);
     const bounded = (/** @type {number} */ v) =>
@@ -134,7 +135,7 @@ export class Ink {
 
   #lift() {
     this.pen.classList.remove("down");
-    this.#say(this.line.length > 1 ? "Pen up, the line is drawn" : "Pen up");
+    this.#say(this.line.length < FEWEST ? "Pen up, the line is too short" : "Pen up, the line is drawn");
     this.#end();
   }
 

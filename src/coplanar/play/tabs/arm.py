@@ -97,6 +97,8 @@ class ArmTab:
         arm_view.show(answer, (arm, joints_of(state)), solution, state, live=live)
         if curve is not None:
             arm_trace.outline(answer, curve, state, lost)
+        elif state["curve"] == "stroke":
+            answer.say("note", "draw a curve for the tool to follow")
         return answer
 
     def python(self, state: State) -> str:
@@ -152,7 +154,16 @@ def _lost(arm: Arm, curve: Curve, state: State) -> np.ndarray | None:
     return None if reached.all() else points[~reached]
 
 
+def _ordered(state: State, changed: str) -> State:
+    """The limits of the joint whose limit was moved past the other one: that one goes along."""
+    end, joint = changed[:-1], changed[-1:]
+    if end not in ("lower", "upper") or state[f"lower{joint}"] <= state[f"upper{joint}"]:
+        return state
+    return state | {f"{other}{joint}": state[changed] for other in ("lower", "upper")}
+
+
 def _settled(state: State, changed: str) -> State:
+    state = _ordered(state, changed)
     follow = state["follow"]
     if changed in ("target_x", "target_y", "elbow"):
         follow = "target"

@@ -11,7 +11,7 @@ from coplanar.control import PointTracker, PolarController, Stability, Stability
 from coplanar.curves import Reference
 from coplanar.play.answer import Answer, Handle
 from coplanar.play.controls import State
-from coplanar.play.tabs import views
+from coplanar.play.tabs import strokes, views
 from coplanar.play.tabs.drive_loop import AnyController, AnyReference, report_of
 from coplanar.run import Run, RunStatus
 from coplanar.se2 import Pose, wrap_angle
@@ -155,7 +155,7 @@ def _say(answer: Answer, report: StabilityReport, run: Run, rows: np.ndarray, st
         share = float((np.abs(run.commands[1:]) >= limits).any(axis=-1).mean())
         if share > 0.0:
             answer.say("warn", f"the limits hold the command back in {100.0 * share:.3g} % of the steps")
-    if state["controller"] == "point" and state["curve"] == "stroke" and not state["stroke"]:
+    if state["controller"] == "point" and state["curve"] == "stroke" and strokes.curve_of(state) is None:
         answer.say("note", "draw a curve for P to follow")
 
 
