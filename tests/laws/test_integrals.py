@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from coplanar.engine import Integral, absolute, cos, evaluator, sin, where
+from coplanar.engine.arrays import FEW_ROWS
 from coplanar.engine.gauss import MOST_PANELS, UNKNOWN, panel_count
 from tests.engines import ENGINES, NEEDS_JAX, NEEDS_NUMBA, on_engine, on_floats
 
@@ -118,3 +119,19 @@ def test_panels_are_counted_over_those_that_can_be():
     assert panel_count(np.array([math.inf, 7.0, math.nan, 2.0 * MOST_PANELS])) == 7
     assert panel_count(np.array([])) == panel_count(math.inf) == 1
     assert panel_count(MOST_PANELS) == MOST_PANELS
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+def test_a_few_rows_are_those_of_many_to_the_last_digit(dtype):
+    """Few rows take all nodes of a panel at once, many take node after node: in the same order."""
+    dt = np.linspace(0.1, 9.0, 2 * FEW_ROWS, dtype=dtype)
+    rate = np.linspace(-1.0, 2.0, 2 * FEW_ROWS, dtype=dtype)
+    panels = np.full_like(dt, 6.0)
+    many = turning(panels, dt * 0, dt, rate)
+    few = turning(panels[:7], dt[:7] * 0, dt[:7], rate[:7])
+    for one, other in zip(few, many, strict=True):
+        assert one.dtype == other.dtype
+        assert np.array_equal(one, other[:7])
+    grid = turning(panels[:3, None], dt[:3, None] * 0, dt[:3, None], rate[:4])
+    assert grid[0].shape == (3, 4)
+    assert grid[1][2, 3] == turning(panels[2:3], dt[2:3] * 0, dt[2:3], rate[3:4])[1][0]

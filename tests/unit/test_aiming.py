@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from coplanar import errors
-from coplanar.flight import AimStatus, Projectile, forms, roots
+from coplanar.flight import AimStatus, Projectile, forms, reach, roots
 from coplanar.flight.roots import falling_root, rising_root
 from coplanar.laws.aiming import arc, farthest
 
@@ -181,6 +181,19 @@ class TestReach:
     def test_refuses_slopes(self, slope):
         with pytest.raises(errors.InvalidValue):
             BALL.furthest(30.0, slope=slope)
+
+    def test_what_the_search_leaves_open_is_found_all_the_same(self, monkeypatch):
+        slopes = np.linspace(-0.5, 1.5, 5)
+        usual = BALL.furthest(30.0, slope=slopes)
+
+        def lost(*inputs):
+            zenith, most, theta, time, known = farthest(*inputs)
+            return zenith * 0.0, most * 0.0, theta, time, known * 0.0
+
+        monkeypatch.setattr(reach, "farthest", lost)
+        nested = BALL.furthest(30.0, slope=slopes)
+        assert np.allclose(nested.distance, usual.distance, rtol=1e-12, atol=0.0)
+        assert np.allclose(nested.angle, usual.angle, rtol=0.0, atol=1e-8)
 
     def test_no_shot_passes_the_envelope(self):
         points = BALL.envelope(30.0, np.linspace(-0.5, 1.5, 12))
