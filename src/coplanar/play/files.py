@@ -11,7 +11,7 @@ _TYPES = {"html": "text/html", "css": "text/css", "js": "text/javascript", "svg"
 _OWN = (
     "index.html", "page.css", "controls.css", "icon.svg", "theme.js", "app.js", "address.js", "charts.js",
     "connection.js", "controls.js", "copying.js", "desk.js", "elements.js", "framing.js", "handles.js", "ink.js",
-    "legend.js", "pace.js", "readings.js", "stage.js", "tabs.js", "transport.js", "types.js", "widgets.js",
+    "legend.js", "pace.js", "readings.js", "shade.js", "stage.js", "tabs.js", "transport.js", "types.js", "widgets.js",
 )  # fmt: skip
 _SHARED = ("view.js", "grid.js", "draw.js", "player.js", "player.css")
 _VENDORED = ("uPlot.esm.js", "uPlot.min.css", "uPlot.LICENSE.txt")

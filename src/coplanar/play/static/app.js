@@ -10,6 +10,7 @@ import { byId, write } from "./elements.js";
 import { Pace } from "./pace.js";
 import { Clock } from "./player.js";
 import { Readings } from "./readings.js";
+import { toggleTheme } from "./shade.js";
 import { Stage } from "./stage.js";
 import { Tabs } from "./tabs.js";
 import { Transport } from "./transport.js";
@@ -266,16 +267,7 @@ class App {
   }
 
   theme() {
-    const root = document.documentElement;
-    const dark = root.dataset.theme
-      ? root.dataset.theme === "dark"
-      : matchMedia("(prefers-color-scheme: dark)").matches;
-    root.dataset.theme = dark ? "light" : "dark";
-    try {
-      localStorage.setItem("coplanar-theme", root.dataset.theme);
-    } catch {
-      // A browser that keeps nothing: the choice holds until the page is left.
-    }
+    toggleTheme();
     this.recolour();
   }
 
