@@ -198,7 +198,6 @@ class App {
   eager = false; // and its pen has not been given the focus yet
 
   /**
-   * Something was set in the panel.
    * @param {string} key
    * @param {any} value
    * @param {boolean} live
@@ -289,12 +288,9 @@ class App {
   }
 }
 
-/**
- * The times of the picture that moves most.
- * @param {Shown} shown
- */
+/** @param {Shown} shown The times of its picture that moves most. */
 function longest(shown) {
-  const all = Object.values(shown.pictures).map((scene) => scene.times);
+  const all = Object.values(shown.pictures).map(({ times }) => times);
   return all.reduce((most, times) => (times.length > most.length ? times : most));
 }
 
