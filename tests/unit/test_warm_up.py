@@ -107,3 +107,14 @@ def test_the_block_ends():
     with pytest.raises(RuntimeError), warm_up():
         raise RuntimeError
     assert not policy.mode.get()
+
+
+def test_a_small_batch_does_not_wait_because_a_single_call_was_warmed_up(monkeypatch):
+    law, search = Evaluator(spiral), Search(begin, span, Integral(growth), improve, finish)
+    with warm_up():
+        law(0.7, 0.2)
+        search(1.5)
+    monkeypatch.setattr(law._kernel, "run", None)
+    monkeypatch.setattr(search._loops, "run", None)
+    assert law(np.array([0.7, 0.8]), 0.2)[0].shape == (2,)
+    assert search(np.array([1.5, 1.6]))[0].shape == (2,)

@@ -61,6 +61,7 @@ class Evaluator:
         self.on_floats: Callable[..., Any] = bind(law, _FLOAT_PRIMITIVES, bound=_float_laws)
         self._kernel: Any = None
         self._one: Callable[..., Any] | None = None
+        self._ready = False  # whether a batch has been through the compiled loop
         self._lock = threading.Lock()
         self._known: _Facts | None = None
         functools.update_wrapper(self, law, updated=())
@@ -114,11 +115,13 @@ class Evaluator:
             return self._compiled(inputs, shape)
         _check_out(out, self._facts.results, shape, inputs[0].dtype)
         self.kernel().run_into(out, inputs, shape)
+        self._ready = True
         return out if self._facts.many else out[0]
 
     def _compiled(self, inputs: tuple[np.ndarray, ...], shape: tuple[int, ...]) -> Any:
         outs = tuple([np.empty(shape, inputs[0].dtype) for _ in range(self._facts.results)])
         self.kernel().run(inputs, outs, shape)
+        self._ready = True
         return outs if self._facts.many else outs[0]
 
     def into(self, out: tuple[np.ndarray, ...], *args: Any) -> None:
@@ -136,7 +139,7 @@ class Evaluator:
             array[...] = part
 
     def _compiles(self, rows: int) -> bool:
-        return pays(rows, self._kernel is not None, least=self._facts.least)
+        return pays(rows, self._ready, least=self._facts.least)
 
     def _on_numbers(self, args: tuple[float, ...]) -> Any:
         """One row where the calls around it are to be compiled at once, or are to give the same digits."""

@@ -62,6 +62,7 @@ class Search:
         self._laws: dict[str, Evaluator] = {name: evaluator(law) for name, law in laws.items()}
         self.rounds = rounds
         self._loops: Any = None
+        self._ready = False  # whether a batch has been through the compiled loops
         functools.update_wrapper(self, begin)
 
     def __call__(self, *inputs: Any, rounds: int | None = None) -> tuple[Any, ...]:
@@ -88,7 +89,7 @@ class Search:
         if rows == 1:
             answer = self(*(a.item() for a in arrays), rounds=rounds)
             return tuple(np.full(shape, a) for a in answer) if shape else answer
-        if pays(rows, self._loops is not None, first=FIRST_COMPILED_ROWS):
+        if pays(rows, self._ready, first=FIRST_COMPILED_ROWS):
             return self.on_compiled(arrays, shape, most)
         return self.on_text(arrays, shape, most)
 
@@ -146,6 +147,7 @@ class Search:
         """The laws in one compiled loop over blocks of rows that advance together."""
         outputs = tuple(np.empty(shape) for _ in range(self.sizes["OUT"]))
         self._kernel().run(inputs, outputs, shape, rounds)
+        self._ready = True
         return outputs
 
     def _kernel(self) -> Any:
