@@ -17,8 +17,6 @@ from coplanar.se2 import Pose
 
 ELBOWS = (1, -1)  # the order of the branches
 
-_FLOATS = (float, float)
-
 
 @dataclass(slots=True, eq=False)
 class Goal:
@@ -101,9 +99,10 @@ class Goal:
 def _single(target: Any) -> Any:
     """The two floats of one position in plain numbers; None for anything else."""
     point = target.tolist() if type(target) is np.ndarray and target.shape == (2,) else target
-    if type(point) not in (tuple, list) or tuple(map(type, point)) != _FLOATS:
+    if type(point) not in (tuple, list) or len(point) != 2:
         return None
-    return point if math.isfinite(point[0]) and math.isfinite(point[1]) else None
+    x, y = point
+    return point if type(x) is type(y) is float and math.isfinite(x) and math.isfinite(y) else None
 
 
 def _columns(parts: Any, lead: tuple[int, ...]) -> Any:

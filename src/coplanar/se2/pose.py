@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isfinite
 from typing import ClassVar, overload
 
 import numpy as np
@@ -198,9 +199,10 @@ class Pose(Triple):
             >>> Pose(1.0, 0.0, 0.0).integrate(Twist(2.0, 0.0, 0.0), 0.5)
             Pose(x=2.0, y=0.0, theta=0.0)
         """
-        if type(twist) is not Twist:  # asked here, as this is the call of a control loop
+        dt = duration
+        if type(twist) is not Twist or type(dt) is not float or not isfinite(dt):  # asked here: control loops call this
             checks.instance("twist", twist, Twist)
-        dt = checks.real("duration", duration)
+            dt = checks.real("duration", duration)
         return Pose._of(*_integrate(self.x, self.y, self.theta, twist.vx, twist.vy, twist.omega, dt))
 
     def transform(self, twist: Twist) -> Twist:
