@@ -18,6 +18,14 @@ def _pointer(context, builder, kind, column, place):
     return cgutils.get_item_pointer(context, builder, kind, array, [place], wraparound=False)
 
 
+def _sum(builder, values):
+    """Their sum, pair by pair: the fewer additions wait for one another, the sooner it is there."""
+    while len(values) > 1:
+        pairs = zip(values[::2], values[1::2], strict=False)
+        values = [builder.fadd(a, b) for a, b in pairs] + values[len(values) - len(values) % 2 :]
+    return values[0]
+
+
 def _read(context, builder, kinds, columns, places):
     values = []
     for k, (kind, place) in enumerate(zip(kinds, places, strict=True)):
@@ -98,14 +106,14 @@ def scatter(typing, columns, start, i, row):
     def generate(context, builder, signature, arguments):
         table, begin, index, answer = arguments
         place = builder.add(begin, index)
-        total = None
+        written = []
         for k, (kind, given) in enumerate(zip(signature.args[0], kinds, strict=True)):
             value = builder.extract_value(answer, k) if isinstance(row, types.BaseTuple) else answer
             value = context.cast(builder, value, given, kind.dtype)
             pointer = _pointer(context, builder, kind, builder.extract_value(table, k), place)
             context.pack_value(builder, kind.dtype, value, pointer)
-            total = value if total is None else builder.fadd(total, value)
-        return total
+            written.append(value)
+        return _sum(builder, written)
 
     return columns[0].dtype(columns, types.intp, types.intp, row), generate
 
@@ -116,11 +124,7 @@ def sum_of(typing, columns, start, i):
 
     def generate(context, builder, signature, arguments):
         place = builder.add(arguments[1], arguments[2])
-        values = _read(context, builder, signature.args[0], arguments[0], [place] * len(columns))
-        total = values[0]
-        for value in values[1:]:
-            total = builder.fadd(total, value)
-        return total
+        return _sum(builder, _read(context, builder, signature.args[0], arguments[0], [place] * len(columns)))
 
     return columns[0].dtype(columns, types.intp, types.intp), generate
 
@@ -132,10 +136,7 @@ def total_of(typing, row):
 
     def generate(context, builder, signature, arguments):
         (given,) = arguments
-        total = builder.extract_value(given, 0) if many else given
-        for k in range(1, len(row) if many else 1):
-            total = builder.fadd(total, builder.extract_value(given, k))
-        return total
+        return _sum(builder, [builder.extract_value(given, k) for k in range(len(row))] if many else [given])
 
     return (row[0] if many else row)(row), generate
 

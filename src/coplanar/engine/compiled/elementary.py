@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
 from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic
@@ -19,6 +18,7 @@ FLAGS = {"contract", "nsz"}  # fused multiply-add; no care for the sign of zero;
 FAR = 1.0e5  # [rad] the reductions by pi/2 and by 2 pi are exact to here
 TAU_HIGH = 6.2831853069365025  # TAU to 32 bits, so that its products with whole numbers to 2^21 are exact
 TAU_LOW = TAU - TAU_HIGH  # the 21 bits left of TAU; exact
+WHOLE = 6755399441055744.0  # 1.5 2^52: a sum with it is rounded to a whole number, which its lowest bits hold
 STEEP = 700.0  # exp and its kin beyond it are left to the C library
 
 
@@ -46,7 +46,8 @@ def _float_of(typing, bits):
 @inline
 def sincos(x):
     """Sine and cosine: reduction by pi/2 in three parts, then two polynomials.  [Cody and Waite 1980; fdlibm]"""
-    turns = math.floor(x * 0.6366197723675814 + 0.5)
+    shifted = x * 0.6366197723675814 + WHOLE
+    turns = shifted - WHOLE
     r = x - turns * 1.5707963267341256
     r = r - turns * 6.077100506303966e-11
     r = r - turns * 2.0222662487959506e-21
@@ -59,12 +60,10 @@ def sincos(x):
         4.16666666666666019037e-02 + z * (-1.38888888888741095749e-03 + z * (
             2.48015872894767294178e-05 + z * (-2.75573143513906633035e-07 + z * (
                 2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))))  # fmt: skip
-    quarter = int(turns)
+    quarter = _bits(shifted)
     odd = (quarter & 1) != 0
-    sine = c if odd else s
-    cosine = s if odd else c
-    sine = -sine if (quarter & 2) != 0 else sine
-    cosine = -cosine if ((quarter + 1) & 2) != 0 else cosine
+    sine = _float_of(_bits(c if odd else s) ^ ((quarter & 2) << 62))
+    cosine = _float_of(_bits(s if odd else c) ^ (((quarter + 1) & 2) << 62))
     far = not (abs(x) <= FAR)
     return (math.nan if far else sine), (math.nan if far else cosine)
 
@@ -94,7 +93,7 @@ def atan2(y, x):
 @inline
 def turn_remainder(x):
     """The angle less the whole turns nearest to it; every product and difference here is exact to ``FAR``."""
-    turns = np.rint(x * (1.0 / TAU))
+    turns = (x * (1.0 / TAU) + WHOLE) - WHOLE
     rest = (x - turns * TAU_HIGH) - turns * TAU_LOW
     rest = rest - TAU if rest > PI else rest
     rest = rest + TAU if rest < -PI else rest
@@ -104,13 +103,14 @@ def turn_remainder(x):
 @inline
 def _exp_parts(x):
     """2^k and e^r - 1 with x = k log 2 + r, |r| <= log(2)/2; the series' first term left out is r^14/14! < 5e-18."""
-    k = math.floor(x * 1.4426950408889634 + 0.5)
+    shifted = x * 1.4426950408889634 + WHOLE
+    k = shifted - WHOLE
     r = x - k * 6.93147180369123816490e-01
     r = r - k * 1.90821492927058770002e-10
     tail = r * r * (1 / 2 + r * (1 / 6 + r * (1 / 24 + r * (1 / 120 + r * (1 / 720 + r * (1 / 5040 + r * (
         1 / 40320 + r * (1 / 362880 + r * (1 / 3628800 + r * (1 / 39916800 + r * (
             1 / 479001600 + r * (1 / 6227020800))))))))))))  # fmt: skip
-    scale = _float_of((int(k) + 1023) << 52)
+    scale = _float_of((_bits(shifted) + 1023) << 52)
     return (scale if abs(x) <= STEEP else math.nan), r + tail
 
 

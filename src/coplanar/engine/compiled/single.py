@@ -37,7 +37,7 @@ def _narrow(value):
 
 def _sincos(x):
     """Sine and cosine: reduction by pi/2 in three parts, then two polynomials.  [Cody and Waite 1980; Cephes]"""
-    turns = np.floor(x * 0.6366197723675814 + 0.5)
+    turns = (x * 0.6366197723675814 + 12582912.0) - 12582912.0  # 1.5 2^23: rounded to a whole number
     r = x - turns * 1.5703125
     r = r - turns * 4.837512969970703125e-4
     r = r - turns * 7.54978995489188216e-8
