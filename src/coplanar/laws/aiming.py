@@ -180,9 +180,8 @@ def farthest_improve(
     short = minimum(theta, 1.0)
     going = unsettled(SHARP * step / zenith, further / short, share)
     there = z + step
-    before = where(
-        absolute(further) < ASIDE * absolute(step), z, there
-    )  # no secant from a flight that ends beside the line
+    aside = absolute(further) >= ASIDE * absolute(step)  # no secant from a flight that ends beside the line
+    before = where(aside, there, z)
     row = there, theta + onward, share_of(step / zenith, onward / short), *launch_sides(there), before, far_z
     return going, *row, time + t_z * step, far + 0.5 * far_z * step
 
@@ -221,24 +220,8 @@ def arc_begin(v0, slope_c, slope_s, k, g, distance, best, most, best_theta, side
     more = log1p(G * expm1(best_theta)) / free_turning(best, slope_c, slope_s) - 1.0
     theta = theta_of_turning(free_turning(z, slope_c, slope_s) * (1.0 + more * share), v0, k, g)
     ends = best, where(side > 0.0, zenith, 0.0)
-    return (
-        z,
-        theta,
-        ROUGH + 0.0 * v0,
-        *launch_sides(z),
-        0.0 * v0,
-        K,
-        G,
-        W,
-        v0 / a,
-        v0 * v0 / a,
-        slope_c,
-        slope_s,
-        distance,
-        most,
-        side,
-        *ends,
-    )
+    row = z, theta, ROUGH + 0.0 * v0, *launch_sides(z), 0.0 * v0
+    return *row, K, G, W, v0 / a, v0 * v0 / a, slope_c, slope_s, distance, most, side, *ends
 
 
 def arc_span(z, theta, share, c, A, B, time, K, G, W, unit, length, slope_c, slope_s, distance, most, side, best, edge):

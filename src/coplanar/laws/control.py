@@ -78,29 +78,9 @@ def tracking_euler(x, y, theta, v, omega, last_x, last_y, sum_x, sum_y, rx, ry, 
 
 
 def tracking_step(
-    x,
-    y,
-    theta,
-    v,
-    omega,
-    last_x,
-    last_y,
-    sum_x,
-    sum_y,
-    rx,
-    ry,
-    fx,
-    fy,
-    h,
-    px,
-    py,
-    kp,
-    kd,
-    ki,
-    at_start,
-    at_middle,
-    at_end,
-):
+    x, y, theta, v, omega, last_x, last_y, sum_x, sum_y, rx, ry, fx, fy, h, px, py, kp, kd, ki,
+    at_start, at_middle, at_end,
+):  # fmt: skip
     """``track_point``, then ``unicycle_step``: one turn of the closed loop."""
     v, omega, ex, ey, sum_x, sum_y = track_point(
         x, y, theta, rx, ry, fx, fy, last_x, last_y, sum_x, sum_y, px, py, kp, kd, ki, h

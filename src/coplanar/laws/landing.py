@@ -88,33 +88,9 @@ def theta_after(theta, time, v, A, B, g, a, G):
 
 
 def landing_improve(
-    theta,
-    upper,
-    t,
-    x,
-    y,
-    top,
-    end,
-    v0,
-    c,
-    A,
-    B,
-    k,
-    g,
-    a,
-    K,
-    G,
-    W,
-    slope_c,
-    slope_s,
-    height,
-    x_0,
-    y_0,
-    side,
-    more_t,
-    more_x,
-    more_y,
-):
+    theta, upper, t, x, y, top, end, v0, c, A, B, k, g, a, K, G, W, slope_c, slope_s, height, x_0, y_0, side,
+    more_t, more_x, more_y,
+):  # fmt: skip
     """The state at the end of the integral, and the next guess; it goes on while that is another step away."""
     unit = v0 / a
     t, x, y = t + unit * more_t, x + unit * v0 * c * more_x, y + unit * v0 * more_y
