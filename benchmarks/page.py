@@ -222,9 +222,10 @@ def _limit_line(result: Result, limits: Limits) -> str:
 INTRODUCTION = """
 Every workload runs beside its peers in one process on the same inputs. First the answers are compared: the worst
 difference from Coplanar's is printed, and a contender whose answers disagree is not timed. Then at least five rounds
-follow in which every contender has its turn, in rotating order; a time is the median of the rounds, a ratio the median
-of the ratios round by round. Compare ratios, not figures: the machine may be shared, and its speed changes. A peer
-without a call for batches runs a loop over the first few of the same rows. "own" threads are as many as the peer takes.
+follow in which every contender has its turn, in rotating order, after a call that is not timed; a time is the median of
+the rounds, a ratio the median of the ratios round by round. Compare ratios, not figures: the machine may be shared, and
+its speed changes. A peer without a call for batches runs a loop over the first few of the same rows. "own" threads are
+as many as the peer takes.
 
 A limit is the larger of two floors that are measured in the same run: the memory traffic of the row (8 bytes a number,
 written numbers counted twice, as a cache line is read before it is written), and the cost of the sines, arc tangents

@@ -1,6 +1,6 @@
 """How a law is evaluated: the arguments decide.
 
-Python floats                 the ``math`` module over the law's own code
+Python floats                 the ``math`` module over the law's own code; compiled after a ``warm_up``
 NumPy arrays, few rows        the law as it is written
 NumPy arrays, many rows       a compiled loop over the law's own code (where Numba is installed)
 JAX, PyTorch, CuPy arrays     the law's own code over their namespace

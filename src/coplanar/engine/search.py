@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from coplanar.engine import gauss
+from coplanar.engine import gauss, scalars
 from coplanar.engine.arrays import Integral
 from coplanar.engine.evaluator import Evaluator, evaluator
 from coplanar.engine.foreign import broadcast_shape
@@ -60,6 +60,7 @@ class Search:
             raise ValueError(f"a search is along integrals of {gauss.WHOLE} points")
         laws = {"begin": begin, "span": span, "rates": integral.integrand, "improve": improve, "finish": finish}
         self._laws: dict[str, Evaluator] = {name: evaluator(law) for name, law in laws.items()}
+        self._integrals = scalars.integral(self._laws["rates"].on_floats, gauss.WHOLE)
         self.rounds = rounds
         self._loops: Any = None
         self._ready = False  # whether a batch has been through the compiled loops
@@ -95,12 +96,12 @@ class Search:
 
     def on_floats(self, *inputs: float, rounds: int = MOST_ROUNDS) -> tuple[float, ...]:
         """One row by ``math``."""
-        span, rates, improve = (self._laws[name].on_floats for name in ("span", "rates", "improve"))
+        span, improve = (self._laws[name].on_floats for name in ("span", "improve"))
         try:
             row = self._laws["begin"].on_floats(*inputs)
             going = 1.0
             for _ in range(rounds):
-                going, *state = improve(*row, *_on_nodes(rates, *span(*row)))
+                going, *state = improve(*row, *self._integrals(*span(*row)))
                 row = (*state, *row[len(state) :])
                 if not going > 0.0:
                     break
@@ -174,22 +175,6 @@ class Search:
         integrals = given["improve"] - given["span"]
         state = len(laws["improve"](*(0.5,) * given["improve"])) - 1
         return {"ROW": given["span"], "STATE": state, "ARGS": given["rates"] - 1, "SUMS": integrals, "OUT": out}
-
-
-def _on_nodes(rates: Law, panels: float, lower: float, upper: float, *parameters: float) -> list[float]:
-    """The integrals of one row."""
-    count = gauss.panel_count(panels)
-    half = 0.5 * (upper - lower) / count if panels <= count else math.nan
-    nodes, weights = gauss.rule(gauss.nodes_for(panels / count))
-    total: list[float] = []
-    for k in range(count):
-        middle = lower + (2 * k + 1) * half
-        for node, weight in zip(nodes, weights, strict=True):
-            terms = rates(middle + node * half, *parameters)
-            total = (
-                [t + weight * f for t, f in zip(total, terms, strict=True)] if total else [weight * f for f in terms]
-            )
-    return [half * t for t in total]
 
 
 def _on_columns(rates: Law, panels: Any, lower: Any, upper: Any, *parameters: Any) -> list[np.ndarray]:

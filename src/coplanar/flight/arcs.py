@@ -12,13 +12,12 @@ import numpy as np
 
 from coplanar.flight.path import crossing
 from coplanar.flight.sight import Sight
-from coplanar.laws.aiming import arc, farthest
+from coplanar.laws.aiming import ASTRAY, arc, farthest
 
 Row = Any
 
 ABOUT = 2  # rounds that tell the limit to about a thousandth
 CLEAR = 0.95  # of the rough limit: what is nearer is surely within the true one
-ASTRAY = 1e-9  # part of the distance by which a launch that was found may miss; it misses by about 1e-14
 
 
 class Arcs(NamedTuple):

@@ -7,7 +7,7 @@ Velocities are NaN where there is no launch. All rows are arrays of one shape.
 from __future__ import annotations
 
 from enum import Enum
-from math import hypot
+from math import exp, hypot
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,7 +15,7 @@ import numpy as np
 from coplanar.engine import evaluator
 from coplanar.flight.arcs import arcs, time_to
 from coplanar.flight.path import Path, at_time, by_launch, crossing
-from coplanar.flight.sight import Sight
+from coplanar.flight.sight import LOG_FASTEST, Sight
 from coplanar.laws import flight as laws
 from coplanar.solving import code_of
 
@@ -32,7 +32,6 @@ _straight_time = evaluator(laws.straight_time)
 UPRIGHT = 1e-9  # cosine of a line of sight that counts as vertical: the shot is a straight one, leaning by first order
 ALONG = 1e-12  # [rad] between a launch and the line of sight that counts as along it, where only along it will do
 ROUNDS = 60  # of Newton for the flight time; it takes about six
-FASTEST = 1e50  # [m/s]
 MOST_HOLD = 115.0  # k times mean speed times time: beyond, the speed of launch is about 1e50 times the mean speed
 
 
@@ -202,7 +201,7 @@ def _solve(a: Row, b: Row, c: Row, d: Row, e: Row, f: Row) -> tuple[Row, Row]:
 
 
 def _found(speed: Row, lost: Row) -> Row:
-    return np.where(speed < FASTEST, np.where(lost, NOT_FOUND, HIT), TOO_FAST)
+    return np.where(speed < exp(LOG_FASTEST), np.where(lost, NOT_FOUND, HIT), TOO_FAST)
 
 
 def _launched(sight: Sight, length: Row, speed: Row, zenith: Row) -> tuple[tuple[Row, Row, Row], Row]:

@@ -21,7 +21,7 @@ Row = Any
 _free_speed = evaluator(laws.free_speed)
 _hold_off = evaluator(laws.hold_off)
 
-FASTEST = 115.0  # log of the greatest speed that is searched, about 1e50 m/s
+LOG_FASTEST = 115.0  # of the greatest speed that is searched, about 1e50 m/s
 FINE = 1e-9  # last secant step to the best angle, over the sector between the zenith and the line
 
 
@@ -76,7 +76,7 @@ class Sight(NamedTuple):
         return best, self.reach(speed, best)
 
     def speed_for(self, distance: Row, zenith: Row, start: Row = None) -> np.ndarray:
-        """The speed that reaches a distance at this angle; infinite where it is beyond exp(``FASTEST``) m/s.
+        """The speed that reaches a distance at this angle; infinite where it is beyond exp(``LOG_FASTEST``) m/s.
 
         The range rises with the speed, like v^2 at first and like log v in the end: Newton in log v.
 
@@ -94,9 +94,9 @@ class Sight(NamedTuple):
             with np.errstate(all="ignore"):
                 return np.log(now.distance / distance), speed * now.by_speed / now.distance
 
-        start, end = np.clip(guess, free, FASTEST), np.minimum(free, FASTEST)
-        found = rising_root(beyond, start, end, FASTEST, distance, zenith, *self, longest=20.0)
-        return np.where(found < FASTEST, np.exp(found), np.inf)
+        start, end = np.clip(guess, free, LOG_FASTEST), np.minimum(free, LOG_FASTEST)
+        found = rising_root(beyond, start, end, LOG_FASTEST, distance, zenith, *self, longest=20.0)
+        return np.where(found < LOG_FASTEST, np.exp(found), np.inf)
 
     def least(self, distance: Row) -> tuple[np.ndarray, np.ndarray]:
         """The least speed that reaches a distance, and its angle from the zenith: where more angle brings no range.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import math
 import os
 import threading
@@ -11,11 +10,11 @@ from types import FunctionType
 import numpy as np
 from numba import njit
 
-from coplanar.engine.arrays import Integral
 from coplanar.engine.binding import bind
 from coplanar.engine.compiled import loops, scans, walks
 from coplanar.engine.compiled.cache import in_folder
 from coplanar.engine.compiled.columns import WIDTH
+from coplanar.engine.compiled.digest import digest_of
 from coplanar.engine.compiled.doubt import shows_every_nan
 from coplanar.engine.compiled.elementary import FLAGS, inline
 from coplanar.engine.compiled.primitives import FAST, SAFE, SINGLE
@@ -244,7 +243,7 @@ def _may_be_written(out, inputs):
 def _label(laws, constants):
     """What tells the loops of these laws from all others."""
     first = next(iter(laws.values()))
-    digest = _digest(*laws.values())
+    digest = digest_of(*laws.values())
     return "_".join([first.__module__.rpartition(".")[2], first.__name__, *(f"{k}{v}" for k, v in constants), digest])
 
 
@@ -270,30 +269,6 @@ def _template(text, label, names):
     function = FunctionType(text.__code__, {**text.__globals__, **names}, name)
     function.__qualname__ = name
     return function
-
-
-def _digest(*laws):
-    """Of laws as they are in memory, with those they call: one may be newer or older than its file, or have none."""
-    digest = hashlib.sha256()
-    for law in laws:
-        _add_text(law, digest, set())
-    return digest.hexdigest()[:12]
-
-
-def _add_text(law, digest, seen):
-    seen.add(law)
-    code = law.__code__
-    digest.update(repr((code.co_code, code.co_consts, code.co_names)).encode())
-    for name in code.co_names:
-        value = law.__globals__.get(name)
-        if isinstance(value, Integral):
-            digest.update(str(value.points).encode())
-            value = value.integrand
-        if isinstance(value, FunctionType):
-            if value not in seen:
-                _add_text(value, digest, seen)
-        elif isinstance(value, float | int | str | tuple):
-            digest.update(repr((name, value)).encode())
 
 
 def _out_of_line(function):
