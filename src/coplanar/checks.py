@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from coplanar.engine import is_foreign
+from coplanar.engine import is_foreign, memory
 from coplanar.errors import InvalidShape, InvalidValue, UnknownName
 
 Real = Any  # a float, or an array of any library that follows the array API
@@ -214,8 +214,10 @@ def frozen(value: Real) -> Real:
         False
     """
     if isinstance(value, np.ndarray) and not _is_immutable(value):
-        value = value.copy()
-        value.flags.writeable = False
+        copy = memory.empty(value.shape, value.dtype)
+        copy[...] = value
+        copy.flags.writeable = False
+        return copy
     return value
 
 
@@ -226,7 +228,7 @@ def _is_immutable(array: np.ndarray) -> bool:
         if owner.flags.writeable:
             return False
         owner = owner.base
-    return owner is None or isinstance(owner, bytes)
+    return owner is None or isinstance(owner, bytes | memory.Lent)
 
 
 def _where(needed: str, checked: Real, fine: Any) -> str:

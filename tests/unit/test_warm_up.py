@@ -54,6 +54,20 @@ def test_a_single_call_is_compiled_where_that_is_asked_for():
     assert {type(part) for part in law(0.7, 0.2)} == {float}
 
 
+def test_what_is_no_float_is_answered_as_before():
+    law = Evaluator(spiral)
+    expected = law(1.0, 2.0)
+    with warm_up():
+        law(1.0, 2.0)
+    assert law(1, 2) == pytest.approx(expected, rel=1e-15)
+    assert law(np.float64(1.0), 2.0) == pytest.approx(expected, rel=1e-15)
+    column = law(np.array([1.0]), 2.0)[0]
+    assert column.shape == (1,)
+    assert law(1.0, np.array([2.0, 2.0]))[0].shape == (2,)
+    with pytest.raises(TypeError):
+        law._one((1, 2.0))
+
+
 def test_a_division_by_zero_is_what_arrays_make_of_it():
     law = Evaluator(spiral)
     with warm_up():

@@ -13,7 +13,7 @@ from coplanar.arms import geometry
 from coplanar.arms.plan import Plan, plan_of
 from coplanar.arms.posture import Posture, column_rates, columns, linkage
 from coplanar.checks import ArrayLike
-from coplanar.engine import stack
+from coplanar.engine import memory, stack
 from coplanar.se2 import Pose
 from coplanar.se2.triple import matrix_of
 
@@ -137,7 +137,7 @@ class Chain:
         """
         joints = self.joints_of(q)
         if self._in_loops(joints):
-            points = np.empty((*joints.shape[:-1], self.n + (2 if self.plan.mounted else 1), 2))
+            points = memory.empty((*joints.shape[:-1], self.n + (2 if self.plan.mounted else 1), 2))
             linkage.places(
                 self.plan.table, joints.reshape(-1, self.n), None, points.reshape(-1, *points.shape[-2:]), None
             )
@@ -221,9 +221,9 @@ class Chain:
         """Pose and Jacobian by the compiled loop."""
         lead = joints.shape[:-1]
         rows = joints.size // self.n
-        parts = np.empty((3, rows if pose else 0))
+        parts = memory.empty((3, rows if pose else 0))
         height = 3 if task == "pose" else 2
-        jacobian = None if task is None else np.empty((rows, height, self.n))
+        jacobian = None if task is None else memory.empty((rows, height, self.n))
         linkage.places(self.plan.table, joints.reshape(-1, self.n), parts, None, jacobian)
         tool = Pose._of(*(part.reshape(lead) for part in parts)) if pose else self.base
         return tool, None if jacobian is None else jacobian.reshape(*lead, height, self.n)

@@ -13,7 +13,7 @@ from coplanar.arms.chain import Chain
 from coplanar.arms.geometry import tool_lever
 from coplanar.arms.goal import ELBOWS, Goal
 from coplanar.arms.plan import TwoLinks
-from coplanar.engine import evaluator
+from coplanar.engine import evaluator, memory
 from coplanar.laws import arms as laws
 from coplanar.laws import se2
 from coplanar.solving import Report
@@ -161,7 +161,7 @@ class Closed:
         if not self._goal.lead:
             turns = _two_link_turns(*given)
             return (turns, 1.0) if self._plain else self._joints(*turns)
-        table = np.empty((2, len(self._x)))
+        table = memory.empty((2, len(self._x)))
         _two_link_turns.into((table[0], table[1]), *given)
         return (table, 1.0) if self._plain else self._joints(*table)
 

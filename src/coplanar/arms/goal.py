@@ -11,7 +11,7 @@ import numpy as np
 from coplanar import checks
 from coplanar.arms.chain import Chain
 from coplanar.checks import Real
-from coplanar.engine import components
+from coplanar.engine import components, memory
 from coplanar.errors import InvalidValue
 from coplanar.se2 import Pose
 
@@ -109,7 +109,7 @@ def _columns(parts: Any, lead: tuple[int, ...]) -> Any:
     """Columns of one memory, of their own."""
     if not lead:
         return parts
-    table = np.empty((len(parts), *lead))
+    table = memory.empty((len(parts), *lead))
     for column, part in zip(table, parts, strict=True):
         column[...] = part
     return table.reshape(len(parts), -1)

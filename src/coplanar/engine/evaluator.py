@@ -16,10 +16,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from coplanar.engine import scalars
+from coplanar.engine import memory, scalars
 from coplanar.engine.binding import PRIMITIVES, array_primitives, bind, operations
 from coplanar.engine.foreign import alike, broadcast_shape, is_foreign
-from coplanar.engine.policy import AT_ONCE, BY_ROWS_ALONE, COMPILED_ROWS, LONG, can_compile, mode, pays
+from coplanar.engine.policy import AT_ONCE, COMPILED_ROWS, LONG, can_compile, mode, pays
 from coplanar.errors import InvalidShape
 
 _FLOAT = frozenset((float,))
@@ -72,13 +72,17 @@ class Evaluator:
         Raises:
             InvalidShape: If the arguments do not broadcast.
         """
-        if _FLOAT.issuperset(map(type, args)):
-            if mode.get():
-                return self._on_numbers(args)
+        if self._one is not None and not mode.get():
             try:
-                return self._one(args) if self._one else self.on_floats(*args)
-            except (ArithmeticError, ValueError):  # where math raises, arrays answer inf or NaN
-                return self._by_arrays(args)
+                return self._one(args)
+            except TypeError:  # not all of them are floats
+                return self._on_any(args)
+        return self._on_any(args)
+
+    def _on_any(self, args: tuple[Any, ...]) -> Any:
+        """By what the arguments are."""
+        if _FLOAT.issuperset(map(type, args)):
+            return self._on_numbers(args)
         if any(is_foreign(a) for a in args):
             return self._on_foreign(args)
         inputs = _as_arrays(args)
@@ -119,7 +123,7 @@ class Evaluator:
         return out if self._facts.many else out[0]
 
     def _compiled(self, inputs: tuple[np.ndarray, ...], shape: tuple[int, ...]) -> Any:
-        outs = tuple([np.empty(shape, inputs[0].dtype) for _ in range(self._facts.results)])
+        outs = tuple([memory.empty(shape, inputs[0].dtype) for _ in range(self._facts.results)])
         self.kernel().run(inputs, outs, shape)
         self._ready = True
         return outs if self._facts.many else outs[0]
@@ -142,13 +146,13 @@ class Evaluator:
         return pays(rows, self._ready, least=self._facts.least)
 
     def _on_numbers(self, args: tuple[float, ...]) -> Any:
-        """One row where the calls around it are to be compiled at once, or are to give the same digits."""
-        if mode.get() == AT_ONCE and self._one is None and self._facts.least == 1 and can_compile():
-            self._one = self.kernel().one("rows", (args,))
-        one = self._one if mode.get() != BY_ROWS_ALONE else None
+        if mode.get() == AT_ONCE and self._facts.least == 1 and can_compile():
+            if self._one is None:
+                self._one = self.kernel().one("rows", len(args))
+            return self._one(args)
         try:
-            return one(args) if one else self.on_floats(*args)
-        except (ArithmeticError, ValueError):
+            return self.on_floats(*args)
+        except (ArithmeticError, ValueError):  # where math raises, arrays answer inf or NaN
             return self._by_arrays(args)
 
     def _by_arrays(self, args: tuple[float, ...]) -> Any:

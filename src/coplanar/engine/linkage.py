@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from coplanar.engine import memory
 from coplanar.engine.policy import FIRST_COMPILED_ROWS, pays
 
 SEARCH_STEPS = 10  # a row of a search is the work of so many rows of places
@@ -91,7 +92,7 @@ class Linkage:
             Joints, codes of ``engine.compiled.searches``, iterations, norms of the error.
         """
         rows, n = start.shape
-        outputs = (np.empty((rows, n)), np.empty(rows, np.int64), np.empty(rows, np.int64), np.empty(rows))
+        outputs = (memory.empty((rows, n)), np.empty(rows, np.int64), np.empty(rows, np.int64), np.empty(rows))
         given = (_read_only(start), _read_only(aims), *table.parts, _read_only(bounds), np.array(settings), budget)
         self._run("search", (*given, outputs, rows), SEARCH_STEPS * n * rows, rows)
         return outputs

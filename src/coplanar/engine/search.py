@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from coplanar.engine import gauss, scalars
+from coplanar.engine import gauss, memory, scalars
 from coplanar.engine.arrays import Integral
 from coplanar.engine.evaluator import Evaluator, evaluator
 from coplanar.engine.foreign import broadcast_shape
@@ -146,7 +146,7 @@ class Search:
         self, inputs: Sequence[np.ndarray], shape: tuple[int, ...], rounds: int = MOST_ROUNDS
     ) -> tuple[np.ndarray, ...]:
         """The laws in one compiled loop over blocks of rows that advance together."""
-        outputs = tuple(np.empty(shape) for _ in range(self.sizes["OUT"]))
+        outputs = tuple(memory.empty(shape) for _ in range(self.sizes["OUT"]))
         self._kernel().run(inputs, outputs, shape, rounds)
         self._ready = True
         return outputs

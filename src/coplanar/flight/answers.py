@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from coplanar.engine import memory
 from coplanar.flight import forms
 from coplanar.flight.forms import Answer, Way
 
@@ -24,7 +25,7 @@ class Answers:
     """
 
     def __init__(self, shape: tuple[int, ...]) -> None:
-        table = np.empty((7, *shape))
+        table = memory.empty((7, *shape))
         *arcs, self.shortfall = (table[k, ...] for k in range(7))
         self.low, self.high = tuple(arcs[:3]), tuple(arcs[3:])
         self.code = np.empty(shape, np.intp)

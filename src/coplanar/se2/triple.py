@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import isfinite
+from operator import attrgetter
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -26,6 +28,7 @@ class Triple:
 
     names: ClassVar[tuple[str, str, str]]
     _setters: ClassVar[tuple[Callable[..., None], Callable[..., None], Callable[..., None]]]
+    _read: ClassVar[Callable[[Any], tuple[Real, Real, Real]]]
     __array_ufunc__: ClassVar[None] = None  # an array beside an operator leaves it to the triple
     __iter__: ClassVar[None] = None
 
@@ -33,9 +36,11 @@ class Triple:
         if "__slots__" in vars(cls):  # the dataclass decorator makes the class twice, with slots the second time
             first, second, third = (getattr(cls, name).__set__ for name in cls.names)
             cls._setters = first, second, third
+            cls._read = attrgetter(*cls.names)  # in one call of C
 
     def __post_init__(self) -> None:
-        if checks.plain(*self.parts):
+        a, b, c = self.parts
+        if type(a) is type(b) is type(c) is float and isfinite(a + b + c):  # control loops make them
             return
         values = [checks.real(name, part) for name, part in zip(self.names, self.parts, strict=True)]
         if any(type(value) is not float for value in values):
@@ -88,8 +93,7 @@ class Triple:
     @property
     def parts(self) -> tuple[Real, Real, Real]:
         """The three fields, in order."""
-        first, second, third = self.names
-        return getattr(self, first), getattr(self, second), getattr(self, third)
+        return type(self)._read(self)
 
     def __getitem__(self, index: Any) -> Self:
         """The same slice of the leading axes of all three.

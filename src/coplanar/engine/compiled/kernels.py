@@ -10,11 +10,13 @@ from types import FunctionType
 import numpy as np
 from numba import njit
 
+from coplanar.engine import memory
 from coplanar.engine.binding import bind
 from coplanar.engine.compiled import loops, scans, walks
 from coplanar.engine.compiled.cache import in_folder
 from coplanar.engine.compiled.columns import WIDTH
 from coplanar.engine.compiled.digest import digest_of
+from coplanar.engine.compiled.door import row_of
 from coplanar.engine.compiled.doubt import shows_every_nan
 from coplanar.engine.compiled.elementary import FLAGS, inline
 from coplanar.engine.compiled.primitives import FAST, SAFE, SINGLE
@@ -53,10 +55,16 @@ class Loops:
         else:
             self._call(kind, f"{kind}_serial", constants, arguments)
 
-    def one(self, kind, arguments, constants=()):
-        """The function of a kind for one row of numbers, compiled for such arguments."""
-        self._call(kind, f"{kind}_one", constants, arguments)
-        return self._compiled(kind, f"{kind}_one", constants)
+    def one(self, kind, count, more=(), constants=()):
+        """The function of a kind for a row of so many Python floats, and arguments of more types.
+
+        It refuses anything else by a TypeError.
+        """
+        signature = (row_of(count), *more)
+        try:
+            return self._compiled(kind, f"{kind}_one", constants).compile(signature)
+        except OSError:  # the cache folder went away, or is full
+            return self._compile(kind, f"{kind}_one", constants, cached=False).compile(signature)
 
     def _call(self, kind, loop, constants, arguments):
         try:
@@ -81,7 +89,8 @@ class Loops:
         with in_folder() as writeable:
             return njit(
                 _template(getattr(texts, loop), label, self._parts[kind, constants]), fastmath=FLAGS,
-                error_model="numpy", nogil=True, cache=cached and writeable, parallel=loop.endswith("parallel"),
+                error_model="numpy", nogil=not loop.endswith("one"), cache=cached and writeable,
+                parallel=loop.endswith("parallel"),
             )  # fmt: skip
 
     def fill(self, kind, inputs, columns, shape, *, more=(), work=1, constants=()):
@@ -169,7 +178,7 @@ class Kernel(Loops):
     def run_into(self, outputs, inputs, shape):
         """``run`` where the outputs may lie in memory as they like, over the inputs too."""
         fit = [_may_be_written(out, inputs) for out in outputs]
-        targets = [out if fits else np.empty(shape, out.dtype) for out, fits in zip(outputs, fit, strict=True)]
+        targets = [out if fits else memory.empty(shape, out.dtype) for out, fits in zip(outputs, fit, strict=True)]
         self.run(inputs, targets, shape)
         for out, target in zip(outputs, targets, strict=True):
             if out is not target:

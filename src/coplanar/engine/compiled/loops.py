@@ -10,6 +10,7 @@ from __future__ import annotations
 from numba import prange
 
 from coplanar.engine.compiled.columns import gather, scatter, sum_of
+from coplanar.engine.compiled.door import numbers
 
 BLOCK = 4096  # rows; a block of ten float64 columns is 320 KiB, which the second-level cache holds
 
@@ -28,8 +29,8 @@ def block(ins, steps, outs, start, rows):
 
 
 def rows_one(inputs):
-    """One row of numbers."""
-    return safe_law(*inputs)  # noqa: F821
+    """One row of Python floats."""
+    return safe_law(*numbers(inputs))  # noqa: F821
 
 
 def rows_serial(ins, steps, outs, rows):

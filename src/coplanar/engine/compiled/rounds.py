@@ -18,6 +18,7 @@ from numba import prange
 
 from coplanar.engine import gauss
 from coplanar.engine.compiled.columns import WIDTH, gather, get, put, scatter, some, sum_of
+from coplanar.engine.compiled.door import numbers
 from coplanar.engine.compiled.primitives import add_terms, scaled_terms
 
 MOST_SPAN = 16.0  # panels of a row in the vector code; beyond, it is left to the safe laws
@@ -158,11 +159,16 @@ def again(ins, steps, outs, most, start, rows):
 
 def search_row(ins, steps, outs, most, start, i):
     """One row from its beginning to the answer by the safe laws."""
-    scatter(outs, start, i, rounds_one(gather(ins, steps, start, i), most))
+    scatter(outs, start, i, answer_of(gather(ins, steps, start, i), most))
 
 
 def rounds_one(inputs, most):
-    """The answer to one row of numbers by the safe laws."""
+    """One row of Python floats."""
+    return answer_of(numbers(inputs), most)
+
+
+def answer_of(inputs, most):
+    """The answer to one row by the safe laws."""
     row = safe_begin(*inputs)  # noqa: F821
     going = 1.0
     for _ in range(most):
@@ -208,6 +214,6 @@ def rounds_parallel(ins, steps, outs, rows, most):
 
 
 PARTS = (
-    rule_for, spans, panel, integrals, judge, leave, row_integrals, row_after, rounds_one, search_row, again,
+    rule_for, spans, panel, integrals, judge, leave, row_integrals, row_after, answer_of, search_row, again,
     rounds_block,
 )  # fmt: skip

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from numba import types
+
 from coplanar.engine.compiled import rounds
 from coplanar.engine.compiled.kernels import Loops
 
@@ -25,4 +27,4 @@ class SearchKernel(Loops):
     def warm_up(self, count):
         """Compile the search for one row of so many numbers."""
         if self.single is None:
-            self.single = self.one("rounds", ((0.5,) * count, 1), self._constants)
+            self.single = self.one("rounds", count, (types.int64,), self._constants)
