@@ -21,10 +21,16 @@ def _two_links(columns):
     return [r * np.cos(y), r * np.sin(y), l1, l2, *[np.where(e < 0.0, -1.0, 1.0) for e in rest]]
 
 
-def _sides(columns):
+def _radii(columns):
     r, l1, l2 = columns
     x, _, l1, l2 = _two_links([r, 0.0 * r, l1, l2])
     return [x, l1, l2]
+
+
+def _both(columns):
+    x, y, l1, l2, _, _, tolerance = columns
+    x, y, l1, l2 = _two_links([x, y, l1, l2])
+    return [x, y, l1, l2, np.abs(l1 - l2), l1 + l2, 0.0 * tolerance + 1e-6]
 
 
 def _rates(columns):
@@ -77,7 +83,7 @@ def _ordered(limits):
 
 DOMAIN = {
     arms.chosen_elbow: lambda columns: [np.round(c) for c in columns],
-    arms.elbow_sides: _sides,
+    arms.elbow_squares: _radii,
     arms.elbow_sine: _two_links,
     arms.joint_near: _joints_off_the_jumps,
     arms.joint_within: _joints_off_the_jumps,
@@ -86,6 +92,7 @@ DOMAIN = {
     arms.turn_near: _off_the_jumps,
     arms.turn_onto: _off_the_jumps,
     arms.turn_within: _off_the_jumps,
+    arms.two_link_both: _both,
     arms.two_link_inverse: _two_links,
     arms.two_link_rates: _rates,
     arms.two_link_reach: _reach,

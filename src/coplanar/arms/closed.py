@@ -30,6 +30,7 @@ _joint_near = evaluator(laws.joint_near)
 _joint_within = evaluator(laws.joint_within)
 _turn_near = evaluator(laws.turn_near)
 _turn_within = evaluator(laws.turn_within)
+_two_link_both = evaluator(laws.two_link_both)
 _two_link_reach = evaluator(laws.two_link_reach)
 _two_link_turns = evaluator(laws.two_link_turns)
 _wrist = evaluator(laws.wrist)
@@ -82,6 +83,36 @@ def links_of(chain: Chain, with_heading: bool) -> Any:
 def has_closed_form(chain: Chain, with_heading: bool) -> bool:
     """Whether ``triangle_of`` holds."""
     return links_of(chain, with_heading) is not None
+
+
+class One:
+    """The answer for one position and an arm whose joints are the closed form's own angles: all of it, by one law.
+
+    The attributes are those of ``Closed``.
+    """
+
+    __slots__ = ("angles", "code", "elbow", "gap")
+    report, iterations, inside = Report(), 0.0, (1.0, 1.0)
+
+    def __init__(self, chain: Chain, goal: Goal, links: TwoLinks) -> None:
+        x, y = goal.x, goal.y
+        if not chain.plan.at_origin:
+            x, y, _ = _from_base(chain, x, y, None)
+        up, down, bend, self.gap, self.code = _two_link_both(
+            x, y, links.l1, links.l2, links.inner, links.outer, goal.tolerance
+        )
+        self.angles = up, bend, down, -bend  # of the elbow's +1, then of -1
+        self.elbow = 1.0 if goal.elbow is None else goal.elbow
+
+    @property
+    def branches(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """The joints of the elbow's +1, then of -1."""
+        return self.angles[:2], self.angles[2:]
+
+    @property
+    def joints(self) -> tuple[float, ...]:
+        """Those of the wanted elbow."""
+        return self.angles[:2] if self.elbow > 0.0 else self.angles[2:]
 
 
 class Closed:
@@ -159,8 +190,7 @@ class Closed:
         rest = 0.0 if self._plain else self._near(0) + chain.bends[0]
         given = (self._x, self._y, elbow, links.l1, links.l2, links.inner, self._goal.tolerance, rest)
         if not self._goal.lead:
-            turns = _two_link_turns(*given)
-            return (turns, 1.0) if self._plain else self._joints(*turns)
+            return self._joints(*_two_link_turns(*given))
         table = memory.empty((2, len(self._x)))
         _two_link_turns.into((table[0], table[1]), *given)
         return (table, 1.0) if self._plain else self._joints(*table)

@@ -55,6 +55,8 @@ def inverse(
         raise UnknownName("method", f"closed (for {chain.joints})", ("numerical", "auto"))
     if links is None or method == "numerical":
         return Solution(chain, goal, _numerical(chain, goal, iterations))
+    if not goal.lead and goal.near is None and chain.plan.plain:
+        return Solution(chain, goal, closed.One(chain, goal, links))
     answer = closed.Closed(chain, goal, links)
     if chain.limits is None:
         return Solution(chain, goal, answer)

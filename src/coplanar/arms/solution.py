@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
+from struct import Struct
 from typing import Any
 
 import numpy as np
 
 from coplanar.arms.chain import Chain
+from coplanar.arms.closed import One
 from coplanar.arms.goal import Goal, shaped
 from coplanar.engine import evaluator
 from coplanar.errors import NoSolution
@@ -32,6 +34,9 @@ class Reach(Enum):
 
 
 _ON_AXIS = code_of(Reach.FIRST_JOINT_FREE)
+_REACHES = tuple(Reach)
+_FLOAT64 = np.dtype(np.float64)
+_pack_two, _pack_four = Struct("2d").pack, Struct("4d").pack  # over bytes an array is read-only, and soonest made
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -66,6 +71,9 @@ class Solution:
     @property
     def q(self) -> np.ndarray:
         """Chosen joints, shape (..., n); for a batch a view of columns, joint by joint contiguous."""
+        answer = self.answer
+        if type(answer) is One:
+            return np.ndarray((2,), _FLOAT64, _pack_two(*answer.joints))
         return shaped(self.answer.joints, self.goal.lead)
 
     @property
@@ -74,7 +82,10 @@ class Solution:
 
         Whole turns are added to come nearest to ``near``, or within the limits.
         """
-        lead, parts = self.goal.lead, self.answer.branches
+        answer = self.answer
+        if type(answer) is One:
+            return np.ndarray((2, 2), _FLOAT64, _pack_four(*answer.angles))
+        lead, parts = self.goal.lead, answer.branches
         if not lead:
             branches = np.array(parts).reshape(len(parts), -1)
         else:
@@ -134,7 +145,8 @@ class Solution:
     @property
     def status(self) -> Any:
         """A ``Reach``, or an object array of them for a batch."""
-        return status_of(Reach, self.code)
+        code = self.answer.code
+        return _REACHES[int(code)] if type(code) is float else status_of(Reach, self.code)
 
     @property
     def reached(self) -> Any:

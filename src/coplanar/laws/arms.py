@@ -1,15 +1,15 @@
 """Serial arms in the plane: links, Jacobian columns, the two-link inverse, whole turns, rates and torques.
 
 Angles are counterclockwise from the x axis unless a law says "relative"; every length is positive. The two-link
-inverse works on the half angle, tan^2(q2/2) = (L^2 - r^2)/(r^2 - D^2) with L = l1 + l2, D = l1 - l2, in factored
-form: next to the base of an equal-link arm the textbook cosine (r^2 - l1^2 - l2^2)/(2 l1 l2) leaves 1e-8 of the
-links' length in the tip, the factored form a rounding.
+inverse works on the half angle, tan^2(q2/2) = a^2/b^2 with a^2 = L^2 - r^2, b^2 = r^2 - D^2, L = l1 + l2, D = l1 - l2,
+in factored form, and tan q2 = 2 a b/(b^2 - a^2): next to the base of an equal-link arm the textbook cosine
+(r^2 - l1^2 - l2^2)/(2 l1 l2) leaves 1e-8 of the links' length in the tip, the factored squares a rounding.
 
 Sources: Lynch and Park 2017, Modern Robotics, ch. 4-6; Siciliano et al. 2009, Robotics, sec. 2.12 and 3.1-3.5;
 Nakamura and Hanafusa 1986 (damped rates).
 """
 
-from coplanar.engine import PI, TAU, absolute, atan2, floor, hypot, maximum, nearest, sincos, sqrt, where
+from coplanar.engine import PI, TAU, absolute, atan2, floor, hypot, maximum, minimum, nearest, sincos, sqrt, where
 from coplanar.laws.se2 import wrap
 
 
@@ -58,20 +58,27 @@ def prismatic_column_rate(angle, rate):
     return -rate * s, rate * c
 
 
-def elbow_sides(r, l1, l2):
-    """Sides of a right triangle with the angle |q2|/2: sqrt((L - r)(L + r)) opposite, sqrt((r - D)(r + D)) adjacent.
+def elbow_squares(r, l1, l2):
+    """Squares of the legs about the angle |q2|/2, a^2 = (L - r)(L + r) and b^2 = (r - D)(r + D), and a b.
 
-    L = l1 + l2 and D = l1 - l2. Beyond the reach the first is 0, inside the hole the second: q2 is 0 or pi there.
+    L = l1 + l2 and D = l1 - l2. Beyond the reach and inside the hole a b is 0: q2 is 0 or pi there.
     """
     outer, inner = l1 + l2, l1 - l2
-    return sqrt((outer - r) * (outer + r)), sqrt((r - inner) * (r + inner))
+    opposite, adjacent = (outer - r) * (outer + r), (r - inner) * (r + inner)
+    return opposite, adjacent, sqrt(opposite * adjacent)
 
 
 def two_link_triangle(x, y, l1, l2):
-    """Radius r, 2 l1 times the second link's reach along and across the first, r^2 + l1^2 - l2^2 and a b, and |q2|."""
-    r = hypot(x, y)
-    a, b = elbow_sides(r, l1, l2)
-    return r, r * r + (l1 - l2) * (l1 + l2), a * b, 2.0 * atan2(a, b)
+    """Radius r, 2 l1 times the second link's reach along and across the first, r^2 + l1^2 - l2^2 and a b, and |q2|.
+
+    Beyond the reach only the sign of the reach along the first link counts, and r^2 is held to the outer ring's.
+    """
+    outer = l1 + l2
+    square = x * x + y * y
+    r = sqrt(square)
+    opposite, adjacent, across = elbow_squares(r, l1, l2)
+    along = minimum(square, outer * outer) + (l1 - l2) * outer
+    return r, along, across, atan2(2.0 * across, adjacent - opposite)
 
 
 def first_direction(x, y, k1, k2):
@@ -84,9 +91,9 @@ def first_direction(x, y, k1, k2):
 def two_link_inverse(x, y, l1, l2, elbow):
     """Joints (q1, q2) with the tip at (x, y), q2 relative; elbow = +1 or -1 is the sign of sin q2.
 
-    q2 = 2 elbow atan2(a, b), q1 = atan2(k1 y - k2 x, k1 x + k2 y) with k1 = r^2 + l1^2 - l2^2 and k2 = elbow a b,
-    which are 2 l1 times l1 + l2 cos q2 and l2 sin q2. Out of reach: the arm points at the target, stretched or
-    folded. On the base q1 is free, and 0.
+    q2 = elbow atan2(2 a b, b^2 - a^2), q1 = atan2(k1 y - k2 x, k1 x + k2 y) with k1 = r^2 + l1^2 - l2^2 and
+    k2 = elbow a b, which are 2 l1 times l1 + l2 cos q2 and l2 sin q2. Out of reach: the arm points at the target,
+    stretched or folded. On the base q1 is free, and 0.
     """
     _, k1, k2, bend = two_link_triangle(x, y, l1, l2)
     return first_direction(x, y, k1, elbow * k2), elbow * bend
@@ -99,6 +106,14 @@ def two_link_turns(x, y, elbow, l1, l2, inner, tolerance, rest):
     return where(free, rest, first_direction(x, y, k1, elbow * k2)), elbow * bend
 
 
+def two_link_both(x, y, l1, l2, inner, outer, tolerance):
+    """Both branches (q1 of the elbow +1, q1 of -1, |q2|), and the two-link reach: gap, how the target stands."""
+    r, k1, k2, bend = two_link_triangle(x, y, l1, l2)
+    free = (r == 0.0) | ((r <= tolerance) & (inner - r <= tolerance))
+    up, down = first_direction(x, y, k1, k2), first_direction(x, y, k1, -k2)
+    return where(free, 0.0, up), where(free, 0.0, down), bend, *two_link_reach(x, y, inner, outer, tolerance)
+
+
 def two_link_reach(x, y, inner, outer, tolerance):
     """Gap to the ring, and how the target stands: 0 reached, 1 and on the axis, 2 beyond the ring, 3 in its hole."""
     r = hypot(x, y)
@@ -108,8 +123,8 @@ def two_link_reach(x, y, inner, outer, tolerance):
 
 def elbow_sine(x, y, l1, l2):
     """|sin q2| = a b/(2 l1 l2) of the two-link inverse: 0 where its branches meet."""
-    a, b = elbow_sides(hypot(x, y), l1, l2)
-    return a * b / (2.0 * l1 * l2)
+    _, _, across = elbow_squares(sqrt(x * x + y * y), l1, l2)
+    return across / (2.0 * l1 * l2)
 
 
 def two_link_rates(q1, q2, l1, l2, vx, vy):
