@@ -62,9 +62,15 @@ def solution(answer: Any) -> np.ndarray:
 
 
 def objects(data: Targets) -> Contender:
-    """Status, gap, both branches."""
+    """The answer, and its status and both branches read."""
     arm, target = Arm((L1, L2)), (float(data.x[0]), float(data.y[0]))
-    return Contender("coplanar: arm.inverse(target)", lambda: arm.inverse(target), 1, solution)
+
+    def call() -> tuple[Any, Any]:
+        answer = arm.inverse(target)
+        return answer.status, answer.branches
+
+    read = lambda answer: wrapped(answer[1].reshape(-1, 4))  # noqa: E731
+    return Contender("coplanar: arm.inverse(target), its status and branches", call, 1, read)
 
 
 def bare_law(data: Targets) -> Contender:

@@ -33,6 +33,11 @@ def _both(columns):
     return [x, y, l1, l2, np.abs(l1 - l2), l1 + l2, 0.0 * tolerance + 1e-6]
 
 
+def _row(columns):
+    *columns, axis = columns
+    return [*_two_links(columns), 0.0 * axis - 1.0]
+
+
 def _rates(columns):
     q1, q2, l1, l2, *velocity = columns
     return [q1, np.where(q2 < 0.0, -1.0, 1.0) * (0.5 + 2.0 * np.abs(np.sin(q2))), *_lengths(l1, l2), *velocity]
@@ -97,5 +102,6 @@ DOMAIN = {
     arms.two_link_rates: _rates,
     arms.two_link_reach: _reach,
     arms.two_link_triangle: _two_links,
+    arms.two_link_row: _row,
     arms.two_link_turns: _turns,
 }

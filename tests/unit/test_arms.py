@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import FrozenInstanceError
 
 import numpy as np
@@ -348,3 +349,16 @@ def test_results_of_one_posture_are_plain_floats():
     for value in (answer.gap, answer.position_error(), answer.heading_error(), answer.conditioning()):
         assert isinstance(value, float)
     assert isinstance(answer.elbow, int)
+
+
+@pytest.mark.parametrize("target", [(1e160, 1e160), (-1e200, 0.0), (0.0, 1e308), (1e-200, 0.0), (0.0, -5e-324)])
+@pytest.mark.parametrize("rows", [0, 3, 30_000])
+def test_targets_of_any_size_get_a_direction_and_no_nan(target, rows):
+    answer = ELBOW_ARM.inverse(np.broadcast_to(target, (rows, 2)) if rows else target)
+    joints = answer.branches.reshape(-1, 2, 2)[-1]
+    assert np.all(np.isfinite(joints))
+    if max(map(abs, target)) > 1.0:
+        assert joints[:, 0] == pytest.approx([math.atan2(target[1], target[0])] * 2, abs=1e-15)
+        assert joints[:, 1] == pytest.approx([0.0, 0.0])
+    else:
+        assert np.abs(joints[:, 1]) == pytest.approx([math.pi] * 2)

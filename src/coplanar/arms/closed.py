@@ -32,6 +32,7 @@ _turn_near = evaluator(laws.turn_near)
 _turn_within = evaluator(laws.turn_within)
 _two_link_both = evaluator(laws.two_link_both)
 _two_link_reach = evaluator(laws.two_link_reach)
+_two_link_row = evaluator(laws.two_link_row)
 _two_link_turns = evaluator(laws.two_link_turns)
 _wrist = evaluator(laws.wrist)
 
@@ -125,8 +126,10 @@ class Closed:
 
     def __init__(self, chain: Chain, goal: Goal, links: TwoLinks) -> None:
         self._chain, self._goal, self._links = chain, goal, links
-        self._x, self._y, self._heading = _from_base(chain, goal.x, goal.y, goal.heading)
         self._plain = chain.plan.plain and goal.near is None
+        if not self._plain or not chain.plan.at_origin:
+            goal.own()
+        self._x, self._y, self._heading = _from_base(chain, goal.x, goal.y, goal.heading)
         # One branch is enough where no limit and no nearness has a say in which.
         self._one_will_do = chain.limits is None and (goal.near is None or goal.elbow is not None)
         if self._one_will_do:
@@ -186,14 +189,27 @@ class Closed:
 
     def _branch(self, elbow: Any) -> tuple[Any, Any]:
         """Joints of one branch, and 1 where they are within the limits, else 0."""
+        if self._plain:
+            return self._plain_branch(elbow), 1.0
         links, chain = self._links, self._chain
-        rest = 0.0 if self._plain else self._near(0) + chain.bends[0]
+        rest = self._near(0) + chain.bends[0]
         given = (self._x, self._y, elbow, links.l1, links.l2, links.inner, self._goal.tolerance, rest)
         if not self._goal.lead:
             return self._joints(*_two_link_turns(*given))
         table = memory.empty((2, len(self._x)))
         _two_link_turns.into((table[0], table[1]), *given)
-        return (table, 1.0) if self._plain else self._joints(*table)
+        return self._joints(*table)
+
+    def _plain_branch(self, elbow: Any) -> np.ndarray:
+        """The closed form's own angles; on the way the goal comes to own its targets."""
+        goal, links = self._goal, self._links
+        table: np.ndarray = memory.empty((4, len(self._x)))
+        axis = goal.tolerance if links.inner <= goal.tolerance else -1.0
+        _two_link_row.into(tuple(table), self._x, self._y, links.l1, links.l2, elbow, axis)
+        if not goal.owned:
+            goal.x, goal.y, goal.owned = table[0], table[1], True
+            self._x, self._y = goal.x, goal.y
+        return table[2:]
 
     def _joints(self, first: Any, second: Any) -> tuple[Any, Any]:
         """From the turn of the first link against the base, and of the second against the first."""

@@ -30,6 +30,7 @@ class Goal:
         near: A column for every joint, to come nearest to; None where the caller has no wish.
         elbow: Wanted branch; None likewise.
         tolerance: What counts as reached [m].
+        owned: Whether nobody else can change the columns.
     """
 
     lead: tuple[int, ...]
@@ -39,10 +40,11 @@ class Goal:
     near: Any
     elbow: Any
     tolerance: float
+    owned: bool = True
 
     @classmethod
     def of(cls, chain: Chain, target: Any, near: Any, elbow: Any, tolerance: float) -> Goal:
-        """Checked, broadcast, in columns that nobody else can change."""
+        """Checked, broadcast, in columns; those of positions alone are to be owned before the answer is handed out."""
         if type(tolerance) is not float or not 0.0 <= tolerance < math.inf:
             tolerance = checks.not_negative("tolerance", tolerance)
         point = _single(target)
@@ -68,6 +70,10 @@ class Goal:
                 raise InvalidValue("elbow", elbow, "+1 or -1, the sign of the sine at the elbow")
             wishes["elbow"] = elbow
         lead = checks.broadcast(**wishes)
+        if lead and not pose and near is None and parts[0].shape == lead:
+            elbow = None if elbow is None else _columns((elbow,), lead)[0]
+            x, y = (part.reshape(-1) for part in parts)
+            return cls(lead, x, y, None, None, elbow, tolerance, owned=False)
         x, y, *heading = _columns(parts, lead)
         return cls(
             lead,
@@ -78,6 +84,12 @@ class Goal:
             None if elbow is None else _columns((elbow,), lead)[0],
             tolerance,
         )
+
+    def own(self) -> None:
+        """Have the positions in columns of one memory."""
+        if not self.owned:
+            self.x, self.y = _columns((self.x, self.y), self.x.shape)
+            self.owned = True
 
     @property
     def aims(self) -> list[Real]:

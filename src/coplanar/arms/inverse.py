@@ -54,6 +54,7 @@ def inverse(
     if method == "closed" and links is None:
         raise UnknownName("method", f"closed (for {chain.joints})", ("numerical", "auto"))
     if links is None or method == "numerical":
+        goal.own()
         return Solution(chain, goal, _numerical(chain, goal, iterations))
     if not goal.lead and goal.near is None and chain.plan.plain:
         return Solution(chain, goal, closed.One(chain, goal, links))

@@ -61,10 +61,12 @@ def prismatic_column_rate(angle, rate):
 def elbow_squares(r, l1, l2):
     """Squares of the legs about the angle |q2|/2, a^2 = (L - r)(L + r) and b^2 = (r - D)(r + D), and a b.
 
-    L = l1 + l2 and D = l1 - l2. Beyond the reach and inside the hole a b is 0: q2 is 0 or pi there.
+    L = l1 + l2 and D = l1 - l2. Beyond the reach and inside the hole a b is 0: q2 is 0 or pi there, so that a radius
+    of more than 2 L is as good as 2 L, whose square is finite.
     """
     outer, inner = l1 + l2, l1 - l2
-    opposite, adjacent = (outer - r) * (outer + r), (r - inner) * (r + inner)
+    near = minimum(r, 2.0 * outer)
+    opposite, adjacent = (outer - near) * (outer + near), (near - inner) * (near + inner)
     return opposite, adjacent, sqrt(opposite * adjacent)
 
 
@@ -109,9 +111,15 @@ def two_link_turns(x, y, elbow, l1, l2, inner, tolerance, rest):
 def two_link_both(x, y, l1, l2, inner, outer, tolerance):
     """Both branches (q1 of the elbow +1, q1 of -1, |q2|), and the two-link reach: gap, how the target stands."""
     r, k1, k2, bend = two_link_triangle(x, y, l1, l2)
-    free = (r == 0.0) | ((r <= tolerance) & (inner - r <= tolerance))
+    free = (r <= tolerance) & (inner - r <= tolerance)
     up, down = first_direction(x, y, k1, k2), first_direction(x, y, k1, -k2)
     return where(free, 0.0, up), where(free, 0.0, down), bend, *two_link_reach(x, y, inner, outer, tolerance)
+
+
+def two_link_row(x, y, l1, l2, elbow, axis):
+    """The target and its two-link inverse: x, y, q1, q2; q1 is 0 within the radius ``axis``, where it is free."""
+    r, k1, k2, bend = two_link_triangle(x, y, l1, l2)
+    return x, y, where(r <= axis, 0.0, first_direction(x, y, k1, elbow * k2)), elbow * bend
 
 
 def two_link_reach(x, y, inner, outer, tolerance):
@@ -156,8 +164,8 @@ def ring_nearest(x, y, inner, outer):
     r = hypot(x, y)
     apart = r > 0.0
     reach = where(r > outer, outer, where(r < inner, inner, r))
-    scale = reach / where(apart, r, 1.0)
-    return where(apart, x * scale, reach), y * scale
+    inside, bottom = reach == r, where(apart, r, 1.0)  # x/r before its product with the reach, which may be large
+    return where(inside, x, where(apart, reach * (x / bottom), reach)), where(inside, y, reach * (y / bottom))
 
 
 def turn_near(angle, near):

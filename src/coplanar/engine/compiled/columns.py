@@ -48,6 +48,60 @@ def row(typing, columns, start, i):
 
 
 @intrinsic
+def lines(typing, columns, steps, room, start):
+    """Where the rows from ``start`` on begin in each column, one after another: a tuple of pointers.
+
+    Columns of step 1 are read where they are, numbers (step 0) where they were spread; others are laid out in the room.
+    """
+    answer = types.Tuple([types.CPointer(column.dtype) for column in columns])
+
+    def generate(context, builder, signature, arguments):
+        table, walk, space, begin = arguments
+        zero, one = (begin.type(number) for number in (0, 1))
+        shelf = context.make_array(signature.args[2])(context, builder, space)
+        slot, pointers = zero, []
+        for k, kind in enumerate(signature.args[0]):
+            step = builder.extract_value(walk, k)
+            there = _pointer(context, builder, kind, builder.extract_value(table, k), builder.mul(begin, step))
+            laid = cgutils.get_item_pointer(context, builder, signature.args[2], shelf, [slot, zero], wraparound=False)
+            apart = builder.icmp_unsigned(">", step, one)
+            pointers.append(builder.select(apart, laid, there))
+            slot = builder.add(slot, builder.zext(apart, slot.type))
+        return context.make_tuple(builder, signature.return_type, pointers)
+
+    return answer(columns, steps, room, types.intp), generate
+
+
+@intrinsic
+def take(typing, lines, i):
+    """Entry ``i`` of every line, as a tuple."""
+    answer = types.Tuple([line.dtype for line in lines])
+
+    def generate(context, builder, signature, arguments):
+        given, place = arguments
+        pointers = [builder.extract_value(given, k) for k in range(len(lines))]
+        return context.make_tuple(
+            builder, signature.return_type, [builder.load(builder.gep(p, [place])) for p in pointers]
+        )
+
+    return answer(lines, types.intp), generate
+
+
+@intrinsic
+def pick(typing, columns, steps, i):
+    """Row ``i`` of the columns, each with a step of its own, as a tuple."""
+    answer = types.Tuple([column.dtype for column in columns])
+
+    def generate(context, builder, signature, arguments):
+        table, walk, index = arguments
+        places = [builder.mul(index, builder.extract_value(walk, k)) for k in range(len(columns))]
+        values = _read(context, builder, signature.args[0], table, places)
+        return context.make_tuple(builder, signature.return_type, values)
+
+    return answer(columns, steps, types.intp), generate
+
+
+@intrinsic
 def gather(typing, columns, steps, start, i):
     """Row ``start * step + i`` of the columns, each with a step of its own, as a tuple."""
     answer = types.Tuple([column.dtype for column in columns])

@@ -224,13 +224,21 @@ def _column(array, shape, rows):
 
     All columns are read-only, so that a loop is compiled once whether or not the caller's arrays are.
     """
-    if array.shape == shape:
-        layout = array.flags
-        if layout.c_contiguous and layout.aligned:
+    if array.shape == shape and array.flags.aligned:
+        if array.flags.c_contiguous:
             return _read_only(array), 1
+        if step := _even_step(array):
+            return _read_only(array[(slice(1),) * array.ndim]), step
     if array.size and not any(s for s, n in zip(array.strides, array.shape, strict=True) if n > 1):
         return _read_only(_spread(array, min(rows, loops.BLOCK))), 0
     return None, None
+
+
+def _even_step(array):
+    """How many entries a row lies after the one before, where that is one number of at least 2; else 0."""
+    step, rest = divmod(array.strides[-1], array.itemsize)
+    even = [s == n * inner for s, n, inner in zip(array.strides[:-1], array.shape[1:], array.strides[1:], strict=True)]
+    return step if step > 1 and not rest and all(even) else 0
 
 
 def _spread(array, count):

@@ -17,7 +17,7 @@ import numpy as np
 from numba import prange
 
 from coplanar.engine import gauss
-from coplanar.engine.compiled.columns import WIDTH, gather, get, put, scatter, some, sum_of
+from coplanar.engine.compiled.columns import WIDTH, get, pick, put, scatter, some, sum_of
 from coplanar.engine.compiled.door import numbers
 from coplanar.engine.compiled.primitives import add_terms, scaled_terms
 
@@ -131,7 +131,7 @@ def rounds_block(ins, steps, outs, most, start, rows):
     table, settled = np.empty((ROW + 1 + SPAN + 2 * SUMS, WIDTH)), np.empty((1 + ROW, WIDTH))  # noqa: F821
     which, place = np.arange(WIDTH), np.empty(WIDTH, np.int64)
     for i in range(rows):
-        put(table, 0, i, begin(*gather(ins, steps, start, i)))  # noqa: F821
+        put(table, 0, i, begin(*pick(ins, steps, start + i)))  # noqa: F821
     open_rows = rows
     for _ in range(most):
         integrals(table, place, open_rows)
@@ -159,7 +159,7 @@ def again(ins, steps, outs, most, start, rows):
 
 def search_row(ins, steps, outs, most, start, i):
     """One row from its beginning to the answer by the safe laws."""
-    scatter(outs, start, i, answer_of(gather(ins, steps, start, i), most))
+    scatter(outs, start, i, answer_of(pick(ins, steps, start + i), most))
 
 
 def rounds_one(inputs, most):
