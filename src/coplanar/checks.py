@@ -206,6 +206,24 @@ def instance(name: str, value: object, kind: type, *, remedy: str = "") -> None:
         raise InvalidValue(name, value, f"a {kind.__name__}", remedy)
 
 
+def output(out: Any, shape: tuple[int, ...]) -> np.ndarray:
+    """Memory that a result is to be written into.
+
+    Raises:
+        InvalidShape: If it is no writeable float64 array of this shape.
+
+    Example:
+        >>> output(np.zeros((3, 2)), (3, 2)).shape
+        (3, 2)
+    """
+    if isinstance(out, np.ndarray) and out.shape == shape and out.dtype == np.float64 and out.flags.writeable:
+        return out
+    given = type(out).__name__
+    if isinstance(out, np.ndarray):
+        given = f"{'a' if out.flags.writeable else 'a read-only'} {out.dtype} array of shape {out.shape}"
+    raise InvalidShape("out", given, f"a float64 array of shape {shape} that may be written", f"np.empty({shape})")
+
+
 def frozen(value: Real) -> Real:
     """The value itself if nobody can change it, otherwise a read-only copy.
 

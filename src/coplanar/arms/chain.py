@@ -79,14 +79,15 @@ class Chain:
         """Upper joint limits, inf where there is none, shape (n,)."""
         return np.array([math.inf] * self.n if self.limits is None else [high for _, high in self.limits])
 
-    def forward(self, q: ArrayLike) -> Pose:
+    def forward(self, q: ArrayLike, *, out: np.ndarray | None = None) -> Pose:
         """Pose of the tool in the world.
 
         Args:
             q: Joint variables [rad, m], shape (..., n).
+            out: Where x, y and theta are written, shape (3, ...); the pose that comes back looks at it.
 
         Raises:
-            InvalidShape: If the last axis is not n long.
+            InvalidShape: If the last axis is not n long, or ``out`` is of another shape or type.
             InvalidValue: If an entry is not finite.
 
         Example:
@@ -96,10 +97,16 @@ class Chain:
             [1.0, 1.0, 1.570796326795]
         """
         joints = self.joints_of(q)
+        if out is not None:
+            checks.output(out, (3, *np.shape(joints)[:-1]))
         if self._in_loops(joints):
-            return self._rows(joints, task=None)[0]
+            return self._rows(joints, task=None, into=(out, None))[0]
         posture = Posture.of(self, joints)
-        return Pose._of(*posture.tip, posture.angles[-1] + self.tool.theta)
+        x, y, theta = *posture.tip, posture.angles[-1] + self.tool.theta
+        if out is not None:
+            out[0], out[1], out[2] = x, y, theta
+            x, y, theta = out if out.ndim > 1 else out.tolist()
+        return Pose._of(x, y, theta)
 
     def kinematics(self, q: ArrayLike, *, task: str = "pose") -> tuple[Pose, np.ndarray]:
         """``forward`` and ``jacobian`` at once, for little more than either.
@@ -148,12 +155,13 @@ class Chain:
         corners_of: np.ndarray = stack((xs, ys))
         return corners_of
 
-    def jacobian(self, q: ArrayLike, *, task: str = "pose") -> np.ndarray:
+    def jacobian(self, q: ArrayLike, *, task: str = "pose", out: np.ndarray | None = None) -> np.ndarray:
         """J with [xdot, ydot, thetadot] = J q_rate, of the tool in the world.
 
         Args:
             q: Joint variables, shape (..., n).
             task: "pose" for three rows, "position" for the first two.
+            out: Where it is written, of its shape; it comes back.
 
         Returns:
             Shape (..., 3, n) or (..., 2, n) [m/rad or 1; the last row rad/rad or 0].
@@ -168,9 +176,15 @@ class Chain:
         if task not in TASKS:
             _check_task(task)
         joints = self.joints_of(q)
+        if out is not None:
+            checks.output(out, (*np.shape(joints)[:-1], 3 if task == "pose" else 2, self.n))
         if self._in_loops(joints):
-            return np.asarray(self._rows(joints, task=task, pose=False)[1])
-        return _matrix(columns(self, Posture.of(self, joints)), task)
+            return np.asarray(self._rows(joints, task=task, pose=False, into=(None, out))[1])
+        matrix = _matrix(columns(self, Posture.of(self, joints)), task)
+        if out is None:
+            return matrix
+        out[...] = matrix
+        return out
 
     def jacobian_dot(self, q: ArrayLike, q_rate: ArrayLike, *, task: str = "pose") -> np.ndarray:
         """dJ/dt along q_rate, so that the tool's acceleration is J q_acceleration + Jdot q_rate.
@@ -217,20 +231,37 @@ class Chain:
         """Whether the compiled loops serve so many rows sooner."""
         return type(joints) is np.ndarray and linkage.pays("chain", joints.size // self.n)
 
-    def _rows(self, joints: np.ndarray, *, task: str | None, pose: bool = True) -> tuple[Pose, np.ndarray | None]:
-        """Pose and Jacobian by the compiled loop."""
+    def _rows(
+        self, joints: np.ndarray, *, task: str | None, pose: bool = True, into: tuple[Any, Any] = (None, None)
+    ) -> tuple[Pose, np.ndarray | None]:
+        """Pose and Jacobian by the compiled loop, into arrays that are there or into new ones."""
         lead = joints.shape[:-1]
         rows = joints.size // self.n
-        parts = memory.empty((3, rows if pose else 0))
-        height = 3 if task == "pose" else 2
-        jacobian = None if task is None else memory.empty((rows, height, self.n))
+        size = (rows, 3 if task == "pose" else 2, self.n)
+        parts = _room(into[0], (3, rows if pose else 0), joints)
+        jacobian = None if task is None else _room(into[1], size, joints)
         linkage.places(self.plan.table, joints.reshape(-1, self.n), parts, None, jacobian)
-        tool = Pose._of(*(part.reshape(lead) for part in parts)) if pose else self.base
-        return tool, None if jacobian is None else jacobian.reshape(*lead, height, self.n)
+        tool = Pose._of(*(part.reshape(lead) for part in _placed(parts, into[0]))) if pose else self.base
+        return tool, None if jacobian is None else _placed(jacobian, into[1]).reshape(*lead, *size[1:])
 
     def checked_joints(self, name: str, q: ArrayLike) -> Any:
         """One finite value for every joint, shape (..., n); ``name`` is what an error calls it."""
         return checks.vector(name, q, self.n, remedy=f"give one value for each of the {self.n} joints")
+
+
+def _room(wanted: np.ndarray | None, size: tuple[int, ...], joints: np.ndarray) -> np.ndarray:
+    """Contiguous rows apart from the joints: those of the wanted memory where it can be, or new ones."""
+    if wanted is not None and wanted.flags.c_contiguous and not np.may_share_memory(wanted, joints):
+        return wanted.reshape(size)
+    return memory.empty(size)
+
+
+def _placed(made: np.ndarray, wanted: np.ndarray | None) -> np.ndarray:
+    """What was made, in the wanted memory if there is one."""
+    if wanted is None or np.may_share_memory(made, wanted):
+        return made
+    wanted[...] = made.reshape(wanted.shape)
+    return wanted
 
 
 def _matrix(table: list[tuple[Any, Any, float]], task: str) -> np.ndarray:

@@ -95,13 +95,14 @@ class Segment:
         whole = (np.broadcast_to(part, self.shape) for part in self.parts)
         return self._of(*(checks.real("slice", part[index]) for part in whole))
 
-    def pose(self, start: Pose, t: ArrayLike) -> Pose:
+    def pose(self, start: Pose, t: ArrayLike, *, out: np.ndarray | None = None) -> Pose:
         """The pose p + int_0^t (v + a s) (cos, sin)(theta + omega s + alpha s^2/2) ds, exact to rounding.
 
         Args:
             start: Pose at time 0.
             t: Time since the start [s]; broadcasts with the segment's fields and the start. Outside 0 ... duration
                 the same accelerations go on.
+            out: Where x, y and theta are written, shape (3, ...); the pose that comes back looks at it.
 
         Returns:
             The pose in the frame of ``start``; its heading counts full turns.
@@ -110,19 +111,24 @@ class Segment:
             >>> Segment(0.0, 0.0, 2.0, duration=3.0).pose(Pose(1.0, 0.0, 0.0), [0.0, 1.0, 3.0]).x.tolist()
             [1.0, 2.0, 10.0]
         """
-        return self._pose(start, checks.real("t", t))
+        return self._pose(start, checks.real("t", t), out)
 
-    def end(self, start: Pose) -> Pose:
+    def end(self, start: Pose, *, out: np.ndarray | None = None) -> Pose:
         """The pose when the duration is over.
+
+        Args:
+            start: Pose at time 0.
+            out: Where x, y and theta are written, shape (3, ...); the pose that comes back looks at it.
 
         Example:
             >>> Segment(1.0, 0.0, duration=2.0).end(Pose(1.0, 0.0, 0.0))
             Pose(x=3.0, y=0.0, theta=0.0)
         """
-        return self._pose(start, self.duration)
+        return self._pose(start, self.duration, out)
 
-    def _pose(self, start: Pose, t: Real) -> Pose:
-        return Pose._of(*_segment(start.x, start.y, start.theta, self.v, self.omega, self.a, self.alpha, t))
+    def _pose(self, start: Pose, t: Real, out: np.ndarray | None) -> Pose:
+        given = start.x, start.y, start.theta, self.v, self.omega, self.a, self.alpha, t
+        return Pose._of(*_segment(*given)) if out is None else Pose._into(out, _segment, *given)
 
     def twist(self, t: ArrayLike) -> Twist:
         """The velocity (v + a t, 0, omega + alpha t) at time t [s], seen from the body.

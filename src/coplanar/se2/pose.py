@@ -182,18 +182,33 @@ class Pose(Triple):
         """
         return Displacement._of(*_log(self.x, self.y, self.theta))
 
-    def step(self, increment: Displacement) -> Pose:
+    def step(self, increment: Displacement, *, out: np.ndarray | None = None) -> Pose:
         """T exp(increment): the pose after a displacement seen from the body.
+
+        Args:
+            increment: What is driven, seen from the body.
+            out: Where x, y and theta are written, shape (3, ...); the pose that comes back looks at it.
+
+        Raises:
+            InvalidShape: If they do not broadcast, or ``out`` is of another shape or type.
 
         Example:
             >>> Pose(1.0, 0.0, 0.0).step(Displacement(2.0, 0.0, 0.0))
             Pose(x=3.0, y=0.0, theta=0.0)
         """
         checks.instance("increment", increment, Displacement, remedy=_A_RATE)
-        return Pose._of(*_step(self.x, self.y, self.theta, increment.dx, increment.dy, increment.dtheta))
+        return Pose._into(out, _step, self.x, self.y, self.theta, increment.dx, increment.dy, increment.dtheta)
 
-    def integrate(self, twist: Twist, duration: ArrayLike) -> Pose:
+    def integrate(self, twist: Twist, duration: ArrayLike, *, out: np.ndarray | None = None) -> Pose:
         """T exp(V dt): the pose after a constant twist for ``duration`` [s]; one step of odometry.
+
+        Args:
+            twist: Velocity of the body, seen from itself.
+            duration: How long [s].
+            out: Where x, y and theta are written, shape (3, ...); the pose that comes back looks at it.
+
+        Raises:
+            InvalidShape: If they do not broadcast, or ``out`` is of another shape or type.
 
         Example:
             >>> Pose(1.0, 0.0, 0.0).integrate(Twist(2.0, 0.0, 0.0), 0.5)
@@ -203,6 +218,8 @@ class Pose(Triple):
         if type(twist) is not Twist or type(dt) is not float or not isfinite(dt):  # asked here: control loops call this
             checks.instance("twist", twist, Twist)
             dt = checks.real("duration", duration)
+        if out is not None:
+            return Pose._into(out, _integrate, *self.parts, *twist.parts, dt)
         return Pose._of(*_integrate(self.x, self.y, self.theta, twist.vx, twist.vy, twist.omega, dt))
 
     def transform(self, twist: Twist) -> Twist:

@@ -59,6 +59,19 @@ class Triple:
         return new
 
     @classmethod
+    def _into(cls, out: Any, law: Any, *args: Real) -> Self:
+        """The value of a law of three results, or their rows written into ``out``, shape (3, ...)."""
+        if out is None:
+            return cls._of(*law(*args))
+        shape = np.broadcast_shapes(*(np.shape(a) for a in args))
+        columns = checks.output(out, (3, *shape))
+        if not shape:
+            columns[:] = law(*args)
+            return cls._of(*columns.tolist())
+        law.into(tuple(columns), *args)
+        return cls._of(*columns)
+
+    @classmethod
     def from_array(cls, array: ArrayLike) -> Self:
         """From an array of shape (..., 3).
 
