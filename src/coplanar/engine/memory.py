@@ -40,14 +40,17 @@ class Lent:
                 del _waiting[0]
 
 
-def empty(shape: tuple[int, ...], dtype: Any = np.float64) -> np.ndarray:
+_FLOAT64 = np.dtype(np.float64)
+
+
+def empty(shape: tuple[int, ...], dtype: Any = _FLOAT64) -> np.ndarray:
     """An array with no values yet, as ``np.empty``; a view of it that is read-only is so for good.
 
     Example:
         >>> empty((2, 3)).shape
         (2, 3)
     """
-    size = math.prod(shape) * np.dtype(dtype).itemsize
+    size = math.prod(shape) * (8 if dtype is _FLOAT64 else np.dtype(dtype).itemsize)
     if size < LARGE:
         return np.empty(shape, dtype)
     found = _found(size)

@@ -224,9 +224,10 @@ def _column(array, shape, rows):
 
     All columns are read-only, so that a loop is compiled once whether or not the caller's arrays are.
     """
-    if array.shape == shape and array.flags.aligned:
-        if array.flags.c_contiguous:
-            return _read_only(array), 1
+    layout = array.flags
+    if array.shape == shape and layout.aligned:
+        if layout.c_contiguous:
+            return array if array.ndim == 1 and not layout.writeable else _read_only(array), 1
         if step := _even_step(array):
             return _read_only(array[(slice(1),) * array.ndim]), step
     if array.size and not any(s for s, n in zip(array.strides, array.shape, strict=True) if n > 1):
