@@ -64,7 +64,7 @@ def test_no_more_waits_than_is_said():
     held = [memory.empty((memory.KEPT // 24,)) for _ in range(5)]
     del held
     gc.collect()
-    assert 0 < sum(m.nbytes for m in memory._waiting) <= memory.KEPT
+    assert 0 < sum(m.nbytes for m in memory._waiting.values()) <= memory.KEPT
 
 
 def test_less_than_a_large_result_comes_from_the_heap():

@@ -7,7 +7,6 @@ leave behind is kept, ``KEPT`` bytes at the most, and the next result of about t
 from __future__ import annotations
 
 import math
-import threading
 from typing import Any
 
 import numpy as np
@@ -16,8 +15,9 @@ LARGE = 1 << 18  # [bytes] from which memory is used again; less comes from the 
 KEPT = 1 << 26  # [bytes] that wait for the next result
 SPARE = 4  # a result may take memory that is longer by one part in so many
 
-_waiting: list[np.ndarray] = []  # oldest first
-_lock = threading.RLock()  # the end of an array may come in the middle of anything, in this thread too
+# Oldest first. Threads, forks and arrays that end in the middle of anything need no lock: each change is one step.
+_waiting: dict[int, np.ndarray] = {}
+_FLOAT64 = np.dtype(np.float64)
 
 
 class Lent:
@@ -34,13 +34,13 @@ class Lent:
         return self._memory.__array_interface__
 
     def __del__(self) -> None:
-        with _lock:
-            _waiting.append(self._memory)
-            while sum(memory.nbytes for memory in _waiting) > KEPT:
-                del _waiting[0]
-
-
-_FLOAT64 = np.dtype(np.float64)
+        _waiting[id(self._memory)] = self._memory
+        spare = sum(memory.nbytes for memory in list(_waiting.values())) - KEPT
+        for key, memory in list(_waiting.items()):
+            if spare <= 0:
+                break
+            spare -= memory.nbytes
+            _waiting.pop(key, None)
 
 
 def empty(shape: tuple[int, ...], dtype: Any = _FLOAT64) -> np.ndarray:
@@ -53,17 +53,15 @@ def empty(shape: tuple[int, ...], dtype: Any = _FLOAT64) -> np.ndarray:
     size = math.prod(shape) * (8 if dtype is _FLOAT64 else np.dtype(dtype).itemsize)
     if size < LARGE:
         return np.empty(shape, dtype)
-    found = _found(size)
-    whole = np.asarray(Lent(np.empty(size, np.uint8) if found is None else found))
+    whole = np.asarray(Lent(_found(size)))
     array: np.ndarray = whole[:size].view(dtype).reshape(shape)
     whole.flags.writeable = False  # its views keep what they may do
     return array
 
 
-def _found(size: int) -> np.ndarray | None:
-    """Memory that waits and is long enough, but not by much."""
-    with _lock:
-        fits = (memory for memory in _waiting if size <= memory.nbytes <= size + size // SPARE)
-        found = next(fits, None)
-        _waiting[:] = [memory for memory in _waiting if memory is not found]
-    return found
+def _found(size: int) -> np.ndarray:
+    """Memory that waits and is long enough, but not by much; else new memory."""
+    for key, memory in list(_waiting.items()):
+        if size <= memory.nbytes <= size + size // SPARE and _waiting.pop(key, None) is not None:
+            return memory
+    return np.empty(size, np.uint8)
