@@ -37,7 +37,7 @@ _wrap = evaluator(laws.wrap)
 _A_RATE = "a Twist makes one by during(duration)"
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, init=False)
 class Pose(Triple):
     """A frame in another: origin (x, y) and heading theta; or poses of any leading shape.
 
@@ -57,9 +57,12 @@ class Pose(Triple):
     """
 
     names: ClassVar = ("x", "y", "theta")
-    x: Real = 0.0
-    y: Real = 0.0
-    theta: Real = 0.0
+    x: Real
+    y: Real
+    theta: Real
+
+    def __init__(self, x: ArrayLike = 0.0, y: ArrayLike = 0.0, theta: ArrayLike = 0.0) -> None:
+        self._fill(x, y, theta)
 
     @classmethod
     def exp(cls, displacement: Displacement) -> Pose:

@@ -38,11 +38,15 @@ class Triple:
             cls._setters = first, second, third
             cls._read = attrgetter(*cls.names)  # in one call of C
 
-    def __post_init__(self) -> None:
-        a, b, c = self.parts
-        if type(a) is type(b) is type(c) is float and isfinite(a + b + c):  # control loops make them
+    def _fill(self, a: ArrayLike, b: ArrayLike, c: ArrayLike) -> None:
+        """Check and keep the three numbers; floats soonest, as control loops make a triple in every tick."""
+        if type(a) is type(b) is type(c) is float and isfinite(a + b + c):
+            first, second, third = self._setters
+            first(self, a)
+            second(self, b)
+            third(self, c)
             return
-        values = [checks.real(name, part) for name, part in zip(self.names, self.parts, strict=True)]
+        values = [checks.real(name, part) for name, part in zip(self.names, (a, b, c), strict=True)]
         if any(type(value) is not float for value in values):
             checks.broadcast(**dict(zip(self.names, values, strict=True)))
         for put, value in zip(self._setters, values, strict=True):

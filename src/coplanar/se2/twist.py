@@ -20,7 +20,7 @@ _right_jacobian = evaluator(laws.right_jacobian)
 _rotate = evaluator(laws.rotate)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, init=False)
 class Displacement(Triple):
     """An increment seen from the moving frame: exponential coordinates of a pose.
 
@@ -35,9 +35,12 @@ class Displacement(Triple):
     """
 
     names: ClassVar = ("dx", "dy", "dtheta")
-    dx: Real = 0.0
-    dy: Real = 0.0
-    dtheta: Real = 0.0
+    dx: Real
+    dy: Real
+    dtheta: Real
+
+    def __init__(self, dx: ArrayLike = 0.0, dy: ArrayLike = 0.0, dtheta: ArrayLike = 0.0) -> None:
+        self._fill(dx, dy, dtheta)
 
     def exp_jacobian(self) -> np.ndarray:
         """Jacobian of exp: how (x, y, theta) changes with (dx, dy, dtheta), shape (..., 3, 3).
@@ -69,7 +72,7 @@ class Displacement(Triple):
         return Twist._of(*_over(self.dx, self.dy, self.dtheta, dt))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, init=False)
 class Twist(Triple):
     """A velocity of the body seen from the body.
 
@@ -84,9 +87,12 @@ class Twist(Triple):
     """
 
     names: ClassVar = ("vx", "vy", "omega")
-    vx: Real = 0.0
-    vy: Real = 0.0
-    omega: Real = 0.0
+    vx: Real
+    vy: Real
+    omega: Real
+
+    def __init__(self, vx: ArrayLike = 0.0, vy: ArrayLike = 0.0, omega: ArrayLike = 0.0) -> None:
+        self._fill(vx, vy, omega)
 
     def during(self, duration: ArrayLike) -> Displacement:
         """The displacement made in ``duration`` [s] at this constant twist; negative durations go back."""
