@@ -217,8 +217,8 @@ def batch_floor(limits: Limits, threads: int, data: Any) -> float:
 ONCE = Workload(
     "step", "one odometry step", "call", steps, (100, 100),
     (warmed(objects), warmed(lean), as_they_come(objects), bare_law),
-    {"robotpy-wpimath": wpilib_once, "robotpy-wpimath ": wpilib_lean, "spatialmath (roboticstoolbox)": spatialmath_once, "jaxlie": jaxlie_once,
-     "NumPy": numpy_euler},
+    {"robotpy-wpimath": wpilib_once, "robotpy-wpimath ": wpilib_lean, "jaxlie": jaxlie_once,
+     "spatialmath (roboticstoolbox)": spatialmath_once, "NumPy": numpy_euler},
     once_floor, {1: 1500.0}, 1e-12, same_row, (1, 1), (None,),
 )  # fmt: skip
 
