@@ -6,11 +6,13 @@ law: by Numba's usual means each would be compiled entry by entry, and that woul
 
 from __future__ import annotations
 
+from llvmlite import ir
 from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
 WIDTH = 264  # rows of a table: 64 columns of them are 128 KiB, which the second-level cache holds
+LANES = 8  # numbers in the widest vectors, and in a line of the caches
 
 
 def _pointer(context, builder, kind, column, place):
@@ -68,16 +70,53 @@ def reach(typing, columns, strides, paces, row, begin, i):
     answer = types.Tuple([column.dtype for column in columns])
 
     def generate(context, builder, signature, arguments):
-        table, by_row, by_step, which, first, index = arguments
-        places = []
-        for k in range(len(columns)):
-            base = builder.mul(which, builder.extract_value(by_row, k))
-            base = builder.add(base, builder.mul(first, builder.extract_value(by_step, k)))
-            places.append(builder.add(base, index))
-        values = _read(context, builder, signature.args[0], table, places)
+        values = _read(context, builder, signature.args[0], arguments[0], _reached(builder, arguments))
         return context.make_tuple(builder, signature.return_type, values)
 
     return answer(columns, strides, paces, types.intp, types.intp, types.intp), generate
+
+
+@intrinsic
+def fetch(typing, columns, strides, paces, row, begin, i):
+    """Ask for what ``reach`` will read; nothing waits for it."""
+
+    def generate(context, builder, signature, arguments):
+        _ask(context, builder, signature.args[0], arguments[0], _reached(builder, arguments), 0)
+        return context.get_dummy_value()
+
+    return types.void(columns, strides, paces, types.intp, types.intp, types.intp), generate
+
+
+@intrinsic
+def claim(typing, columns, start, i):
+    """Ask for what ``scatter`` will write; nothing waits for it."""
+
+    def generate(context, builder, signature, arguments):
+        places = [builder.add(arguments[1], arguments[2])] * len(columns)
+        _ask(context, builder, signature.args[0], arguments[0], places, 1)
+        return context.get_dummy_value()
+
+    return types.void(columns, types.intp, types.intp), generate
+
+
+def _reached(builder, arguments):
+    _, by_row, by_step, which, first, index = arguments
+    places = []
+    for k in range(by_row.type.count):
+        base = builder.mul(which, builder.extract_value(by_row, k))
+        base = builder.add(base, builder.mul(first, builder.extract_value(by_step, k)))
+        places.append(builder.add(base, index))
+    return places
+
+
+def _ask(context, builder, kinds, columns, places, writing):
+    """Lines of the caches, to be read or written soon."""
+    address, number = ir.IntType(8).as_pointer(), ir.IntType(32)
+    kind = ir.FunctionType(ir.VoidType(), [address, number, number, number])
+    ask = builder.module.declare_intrinsic("llvm.prefetch", [address], kind)
+    for k, (column, place) in enumerate(zip(kinds, places, strict=True)):
+        pointer = _pointer(context, builder, column, builder.extract_value(columns, k), place)
+        builder.call(ask, [builder.bitcast(pointer, address), number(writing), number(3), number(1)])
 
 
 @intrinsic(prefer_literal=True)
@@ -205,3 +244,61 @@ def _entry(context, builder, arguments, kind, further):
     first = builder.add(builder.mul(column, context.get_constant(types.intp, WIDTH)), i)
     place = builder.add(first, context.get_constant(types.intp, further * WIDTH))
     return builder.gep(array.data, [place])
+
+
+@intrinsic
+def sums(typing, table, column, i, total, begin):
+    """``LANES`` entries of a column become ``begin`` plus the sums before each; returns the total after them.
+
+    That waits for one addition to the total before them, not for one each.
+    """
+
+    def generate(context, builder, signature, arguments):
+        source = _entry(context, builder, arguments, signature.args[0], 0)
+        return _running(builder, source, source, *arguments[3:])
+
+    return types.float64(table, types.intp, types.intp, types.float64, types.float64), generate
+
+
+@intrinsic
+def sums_into(typing, columns, start, table, column, i, total, begin):
+    """As ``sums``, but written from row ``start + i`` on into the one column."""
+
+    def generate(context, builder, signature, arguments):
+        place = builder.add(arguments[1], arguments[4])
+        column = builder.extract_value(arguments[0], 0)
+        target = _pointer(context, builder, signature.args[0][0], column, place)
+        source = _entry(context, builder, arguments[2:], signature.args[2], 0)
+        return _running(builder, source, target, *arguments[5:])
+
+    index, number = types.intp, types.float64
+    return number(columns, index, table, index, index, number, number), generate
+
+
+_VECTOR, _LANE = ir.VectorType(ir.DoubleType(), LANES), ir.IntType(32)
+
+
+def _running(builder, source, target, total, begin):
+    """Running sums of a vector: by sums of pairs, of fours, of all."""
+    vector = builder.load(builder.bitcast(source, _VECTOR.as_pointer()), align=8)
+    stride = 1
+    while stride < LANES:
+        vector = builder.fadd(vector, _later(builder, vector, stride))
+        stride *= 2
+    before = builder.fadd(_spread(builder, total), _later(builder, vector, 1))
+    before = builder.fadd(_spread(builder, begin), before)
+    builder.store(before, builder.bitcast(target, _VECTOR.as_pointer()), align=8)
+    return builder.fadd(total, builder.extract_element(vector, _LANE(LANES - 1)))
+
+
+def _later(builder, vector, count):
+    """Every number so many lanes later; -0 before them, which no sum feels (0 would take a slower instruction)."""
+    lanes = ir.Constant(ir.VectorType(_LANE, LANES), [LANES - count + k for k in range(LANES)])
+    return builder.shuffle_vector(ir.Constant(_VECTOR, [-0.0] * LANES), vector, lanes)
+
+
+def _spread(builder, number):
+    """The number in every lane."""
+    undefined = ir.Constant(_VECTOR, ir.Undefined)
+    first = builder.insert_element(undefined, number, _LANE(0))
+    return builder.shuffle_vector(first, undefined, ir.Constant(ir.VectorType(_LANE, LANES), [0] * LANES))
