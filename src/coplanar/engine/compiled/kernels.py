@@ -8,11 +8,11 @@ import threading
 from types import FunctionType
 
 import numpy as np
-from numba import njit
+from numba import get_num_threads, njit
 
 from coplanar.engine import memory
 from coplanar.engine.binding import bind
-from coplanar.engine.compiled import loops, scans, walks
+from coplanar.engine.compiled import loops, scans, stretches, walks
 from coplanar.engine.compiled.cache import in_folder
 from coplanar.engine.compiled.columns import WIDTH
 from coplanar.engine.compiled.digest import digest_of
@@ -24,6 +24,7 @@ from coplanar.engine.compiled.single import in_single
 
 VECTOR = 8  # numbers in the widest vectors
 SPREAD_ROWS = 1 << 18  # rows that are laid out at a time where an array does not lie as the loop reads it
+FEW = 8  # rows; fewer cannot be shared evenly as whole rows
 PARALLEL_FROM = 200_000  # rows; below, starting threads costs more than they save
 
 _fast_laws: dict = {}
@@ -106,14 +107,14 @@ class Loops:
             return
         steps = tuple(1 if step is None else step for step in steps)
         whole = [np.broadcast_to(a, shape) for a in inputs]
-        room = [None if column is not None else np.empty(min(rows, SPREAD_ROWS), a.dtype.newbyteorder("="))
+        room = [None if column is not None else _Room(min(rows, SPREAD_ROWS), a.dtype)
                 for (column, _), a in zip(ready, inputs, strict=True)]  # fmt: skip
         start = 0
         for index in _slabs(shape, SPREAD_ROWS):
             count = whole[0][index].size
             stop = start + count
             ins = tuple(
-                _laid_out(array[index], space) if column is None else column[start:stop] if step else column
+                space.lay(array[index]) if space else column[start:stop] if step else column
                 for (column, step), array, space in zip(ready, whole, room, strict=True)
             )
             outs = tuple(c[start:stop] for c in columns)
@@ -125,7 +126,7 @@ class Kernel(Loops):
     """A law inside compiled loops: ``run`` over rows, ``scan`` over steps of rows, ``walk`` along rows of steps."""
 
     def __init__(self, law) -> None:
-        super().__init__({"law": law}, {"rows": loops, "scan": scans, "walk": walks})
+        super().__init__({"law": law}, {"rows": loops, "scan": scans, "walk": walks, "stretch": stretches})
 
     def scan(self, initial, inputs, parameters, outputs, size):
         """Carry the state from step to step.
@@ -172,8 +173,9 @@ class Kernel(Loops):
             for a, stride, pace in zip(inputs, strides, paces, strict=True)
         )
         constants = (("KEEP", outputs[0].size > rows),)
-        self.loop("walk", (first, hold, ins, strides, paces, outputs, (*size, group)), rows * steps, WIDTH * rows,
-                  constants)  # fmt: skip
+        long = rows < FEW and rows * steps >= PARALLEL_FROM and _has_threads()
+        self.loop("stretch" if long else "walk", (first, hold, ins, strides, paces, outputs, (*size, group)),
+                  rows * steps, rows * steps if long else WIDTH * rows, constants)  # fmt: skip
 
     def run_into(self, outputs, inputs, shape):
         """``run`` where the outputs may lie in memory as they like, over the inputs too."""
@@ -196,11 +198,21 @@ class Kernel(Loops):
         self.fill("rows", inputs, tuple([o.reshape(-1) for o in outputs]), shape, constants=constants)
 
 
-def _laid_out(piece, space):
-    """The piece in a row, in a space that it may fill."""
-    column = space[: piece.size]
-    column.reshape(piece.shape)[...] = piece
-    return _read_only(column)
+class _Room:
+    """Where the pieces of an array are laid out, one after another."""
+
+    def __init__(self, rows, dtype):
+        self._space = memory.empty((rows,), dtype.newbyteorder("="))
+        self._held = None
+
+    def lay(self, piece):
+        """The piece in a row; what is there already, as the next rows of one that all share, is not copied again."""
+        column = self._space[: piece.size]
+        held = piece.__array_interface__["data"], piece.shape
+        if held != self._held:
+            column.reshape(piece.shape)[...] = piece
+            self._held = held
+        return _read_only(column)
 
 
 def _slabs(shape, most):
@@ -210,6 +222,11 @@ def _slabs(shape, most):
     for outer in np.ndindex(shape[:axis]):
         for first in range(0, shape[axis], length):
             yield (*outer, slice(first, first + length))
+
+
+def _has_threads():
+    """Whether there is more than one thread to share the work; a forked child has one."""
+    return os.getpid() == _process and get_num_threads() > 1
 
 
 def _group(steps):
