@@ -107,14 +107,14 @@ class Loops:
             return
         steps = tuple(1 if step is None else step for step in steps)
         whole = [np.broadcast_to(a, shape) for a in inputs]
-        room = [None if column is not None else _Room(min(rows, SPREAD_ROWS), a.dtype)
+        room = [None if column is not None else np.empty(min(rows, SPREAD_ROWS), a.dtype.newbyteorder("="))
                 for (column, _), a in zip(ready, inputs, strict=True)]  # fmt: skip
         start = 0
         for index in _slabs(shape, SPREAD_ROWS):
             count = whole[0][index].size
             stop = start + count
             ins = tuple(
-                space.lay(array[index]) if space else column[start:stop] if step else column
+                _laid_out(array[index], space) if column is None else column[start:stop] if step else column
                 for (column, step), array, space in zip(ready, whole, room, strict=True)
             )
             outs = tuple(c[start:stop] for c in columns)
@@ -198,21 +198,11 @@ class Kernel(Loops):
         self.fill("rows", inputs, tuple([o.reshape(-1) for o in outputs]), shape, constants=constants)
 
 
-class _Room:
-    """Where the pieces of an array are laid out, one after another."""
-
-    def __init__(self, rows, dtype):
-        self._space = memory.empty((rows,), dtype.newbyteorder("="))
-        self._held = None
-
-    def lay(self, piece):
-        """The piece in a row; what is there already, as the next rows of one that all share, is not copied again."""
-        column = self._space[: piece.size]
-        held = piece.__array_interface__["data"], piece.shape
-        if held != self._held:
-            column.reshape(piece.shape)[...] = piece
-            self._held = held
-        return _read_only(column)
+def _laid_out(piece, space):
+    """The piece in a row, in a space that it may fill."""
+    column = space[: piece.size]
+    column.reshape(piece.shape)[...] = piece
+    return _read_only(column)
 
 
 def _slabs(shape, most):

@@ -15,19 +15,8 @@ from __future__ import annotations
 import numpy as np
 from numba import prange
 
-from coplanar.engine.compiled.columns import (
-    LANES,
-    WIDTH,
-    claim,
-    fetch,
-    gather,
-    get,
-    put,
-    reach,
-    scatter,
-    sums,
-    sums_into,
-)
+from coplanar.engine.compiled.columns import WIDTH, claim, fetch, gather, get, put, reach, scatter
+from coplanar.engine.compiled.lanes import LANES, sums, sums_into
 
 LONG = 4  # columns of a table that make one of a tile: the longer the tile, the less often its loops begin
 TILE = LONG * WIDTH
