@@ -50,7 +50,14 @@ ALL = pytest.mark.parametrize(
 SIZES = [((), 1), ((), 7), ((), 1100), ((1,), 255), ((3,), 1), ((50,), 10), ((7,), 100), ((2, 1, 3), 257), ((40,), 33)]
 TILE = 1056  # steps that the compiled loop takes at once, of one row or of a few
 EDGES = [((), TILE - 1), ((), TILE), ((), TILE + 1), ((2,), 2 * TILE + 9), ((TILE + 1,), 1), ((70,), 31), ((67,), 32)]
-SHARED = [((2100,), 100), ((), 210_000), ((), 8 * TILE * 25), ((3,), 8 * TILE * 9 + 1), ((7,), 30_011)]  # by threads
+SHARED = [
+    ((2100,), 100),
+    ((), 210_000),
+    ((), 8 * TILE * 32),
+    ((), 8 * TILE * 32 + 1),
+    ((3,), 8 * TILE * 9 + 1),
+    ((7,), 30_011),
+]
 
 
 @ALL
