@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
+from coplanar import Odometry
 from coplanar.engine import Walk, evaluator
 from coplanar.laws import motion, se2
 from tests.engines import NEEDS_JAX, NEEDS_NUMBA
@@ -45,6 +48,16 @@ ALL = pytest.mark.parametrize(
     "engine", ["call", "text", pytest.param("compiled", marks=NEEDS_NUMBA), pytest.param("jax", marks=NEEDS_JAX)]
 )
 SIZES = [((), 1), ((), 7), ((), 1100), ((1,), 255), ((3,), 1), ((50,), 10), ((7,), 100), ((2, 1, 3), 257), ((40,), 33)]
+TILE = 1056  # steps that the compiled loop takes at once, of one row or of a few
+EDGES = [((), TILE - 1), ((), TILE), ((), TILE + 1), ((2,), 2 * TILE + 9), ((TILE + 1,), 1), ((70,), 31), ((67,), 32)]
+SHARED = [
+    ((2100,), 100),
+    ((), 210_000),
+    ((), 8 * TILE * 32),
+    ((), 8 * TILE * 32 + 1),
+    ((3,), 8 * TILE * 9 + 1),
+    ((7,), 30_011),
+]
 
 
 @ALL
@@ -61,6 +74,12 @@ def test_it_is_the_loop(engine, lead, steps):
             assert np.max(np.abs(answer - column)) <= 4 * steps * EPS * lever
         for answer, column in zip(on(engine, se2.step, begin, inputs, "end"), whole, strict=True):
             assert np.array_equal(np.broadcast_to(answer, lead), np.broadcast_to(column[..., -1], lead))
+
+
+@NEEDS_NUMBA
+@pytest.mark.parametrize(("lead", "steps"), EDGES, ids=str)
+def test_it_is_the_loop_at_the_edges_of_tiles(lead, steps):
+    test_it_is_the_loop("compiled", lead, steps)
 
 
 @ALL
@@ -105,6 +124,72 @@ def test_what_is_not_finite_stays_in_its_row(bad):
     assert np.isfinite(x[3, :21]).all()
     assert not np.isfinite(heading[3, 21:]).any()
     assert np.isfinite(x[[0, 1, 2, 4]]).all()
+
+
+def on_threads(count, begin, inputs, keep="all"):
+    import numba
+
+    if count > numba.config.NUMBA_NUM_THREADS:
+        pytest.skip("one processor")
+    before = numba.get_num_threads()
+    numba.set_num_threads(count)
+    try:
+        return on("compiled", se2.step, begin, inputs, keep)
+    finally:
+        numba.set_num_threads(before)
+
+
+@NEEDS_NUMBA
+@pytest.mark.parametrize(("lead", "steps"), SHARED, ids=str)
+def test_threads_change_no_bit(lead, steps):
+    rng = np.random.default_rng(3)
+    begin = list(rng.uniform(-1.0, 1.0, (3, *lead)))
+    inputs = [rng.uniform(-1.0, 1.0, (*lead, steps)), 0.1, rng.uniform(-1.0, 1.0, (*lead, steps))]
+    text = on("text", se2.step, begin, inputs, "all")
+    for keep in ("all", "end"):
+        one, two = (on_threads(count, begin, inputs, keep) for count in (1, 2))
+        assert all(np.array_equal(a, b) for a, b in zip(one, two, strict=True))
+        for answer, column in zip(one, text, strict=True):
+            right = column if keep == "all" else column[..., -1]
+            assert np.max(np.abs(answer - right)) <= steps * EPS * np.max(np.abs(column))
+
+
+@NEEDS_NUMBA
+@pytest.mark.parametrize("bad", [np.nan, np.inf, 1e7])
+def test_threads_change_no_bit_of_what_the_fast_law_leaves(bad):
+    turn = np.full(300_000, 0.1)
+    turn[[150_000, 250_000]] = bad, -bad
+    inputs = [np.linspace(0.0, 1.0, turn.size), 0.0, turn]
+    one, two = (on_threads(count, [0.0, 0.0, 0.0], inputs) for count in (1, 2))
+    with np.errstate(invalid="ignore"):
+        text = on("text", se2.step, [0.0, 0.0, 0.0], inputs, "all")
+    for a, b, right in zip(one, two, text, strict=True):
+        assert np.array_equal(a, b, equal_nan=True)
+        assert np.array_equal(np.isfinite(a), np.isfinite(right))
+    assert np.isfinite(one[0][150_000])
+
+
+@NEEDS_NUMBA
+def test_a_long_log_rounds_little():
+    """Turns whose sums are exact, so that headings are; places against sums that round once."""
+    rng = np.random.default_rng(4)
+    way, turn = rng.uniform(-0.005, 0.02, 1_000_000), rng.integers(-(2**20), 2**20 + 9000, 1_000_000) * 2.0**-26
+    heading = np.concatenate(([0.0], np.cumsum(turn)))
+    ways = evaluator(se2.step).on_text(0.0, 0.0, heading[:-1], way, 0.0, turn)
+    *places, turned = on("compiled", se2.step, [0.0, 0.0, 0.0], [way, 0.0, turn], "all")
+    assert np.array_equal(turned, heading)
+    for place, column in zip(places, ways, strict=False):
+        error = max(abs(place[k] - math.fsum(column[:k])) for k in range(0, turn.size + 1, 20_000))
+        assert error <= 8 * EPS * np.max(np.abs(place))
+
+
+@NEEDS_NUMBA
+def test_velocities_of_many_robots_are_those_of_each():
+    rng = np.random.default_rng(5)
+    v, omega, t = rng.uniform(-1.0, 1.0, (2, 5, 900, 101)), rng.uniform(-1.0, 1.0, 101), np.cumsum(rng.random(101))
+    increments = Odometry.from_velocities(v, omega, t).increments
+    assert np.array_equal(increments.dx, v[..., :-1] * np.diff(t))
+    assert np.array_equal(increments.dtheta, omega[:-1] * np.diff(t))
 
 
 @ALL

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from coplanar.engine import memory
 from coplanar.engine.evaluator import Evaluator, evaluator
 from coplanar.engine.foreign import is_foreign, namespace_of
 from coplanar.engine.policy import pays
@@ -91,7 +92,7 @@ class Walk:
         """Tile by tile in one compiled loop."""
         lead, steps = shape[:-1], shape[-1]
         rows = math.prod(lead)
-        whole = np.empty((3, *lead, steps + 1) if keep == "all" else (3, *lead))
+        whole = memory.empty((3, *lead, steps + 1) if keep == "all" else (3, *lead))
         self._evaluator.kernel().walk(
             [_flat(b, lead) for b in begin], [_along(a, shape) for a in inputs],
             tuple(whole.reshape(3, -1)), (rows, steps),

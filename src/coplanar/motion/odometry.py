@@ -9,7 +9,7 @@ import numpy as np
 
 from coplanar import checks
 from coplanar.checks import ArrayLike, Real
-from coplanar.engine import Walk, evaluator, running_sum
+from coplanar.engine import Walk, evaluator, is_foreign, memory, running_sum
 from coplanar.errors import InvalidShape, InvalidValue
 from coplanar.integrators import METHODS
 from coplanar.laws import motion as laws
@@ -107,9 +107,9 @@ class Odometry:
         """
         times = checks.monotone("t", t)
         dt = np.diff(times)
-        forward, turn = (held_samples(name, value, times.size) for name, value in (("v", v), ("omega", omega)))
-        checks.broadcast(v=forward, omega=turn)
-        return cls(Displacement._of(forward * dt, 0.0, turn * dt))
+        way, turn = (_made(held_samples(n, rate, times.size), dt) for n, rate in (("v", v), ("omega", omega)))
+        checks.broadcast(v=way, omega=turn)
+        return cls(Displacement._of(way, 0.0, turn))
 
     @classmethod
     def from_wheels(cls, left: ArrayLike, right: ArrayLike, *, track: ArrayLike) -> Odometry:
@@ -214,6 +214,13 @@ class Odometry:
         P = np.zeros((3, 3)) if initial is None else checked_covariance("initial", initial)
         path, _ = walked(self.increments, start)
         return carried(about(path, start), summed_about(path, start, self.increments, Q, P))
+
+
+def _made(rate: Real, dt: np.ndarray) -> Real:
+    """What a rate makes of each time, rate dt, in memory that is used again."""
+    if is_foreign(rate):
+        return rate * dt
+    return np.multiply(rate, dt, out=memory.empty(np.broadcast_shapes(np.shape(rate), dt.shape)))
 
 
 def walked(

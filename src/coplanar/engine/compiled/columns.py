@@ -6,6 +6,7 @@ law: by Numba's usual means each would be compiled entry by entry, and that woul
 
 from __future__ import annotations
 
+from llvmlite import ir
 from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
@@ -122,16 +123,53 @@ def reach(typing, columns, strides, paces, row, begin, i):
     answer = types.Tuple([column.dtype for column in columns])
 
     def generate(context, builder, signature, arguments):
-        table, by_row, by_step, which, first, index = arguments
-        places = []
-        for k in range(len(columns)):
-            base = builder.mul(which, builder.extract_value(by_row, k))
-            base = builder.add(base, builder.mul(first, builder.extract_value(by_step, k)))
-            places.append(builder.add(base, index))
-        values = _read(context, builder, signature.args[0], table, places)
+        values = _read(context, builder, signature.args[0], arguments[0], _reached(builder, arguments))
         return context.make_tuple(builder, signature.return_type, values)
 
     return answer(columns, strides, paces, types.intp, types.intp, types.intp), generate
+
+
+@intrinsic
+def fetch(typing, columns, strides, paces, row, begin, i):
+    """Ask for what ``reach`` will read; nothing waits for it."""
+
+    def generate(context, builder, signature, arguments):
+        _ask(context, builder, signature.args[0], arguments[0], _reached(builder, arguments), 0)
+        return context.get_dummy_value()
+
+    return types.void(columns, strides, paces, types.intp, types.intp, types.intp), generate
+
+
+@intrinsic
+def claim(typing, columns, start, i):
+    """Ask for what ``scatter`` will write; nothing waits for it."""
+
+    def generate(context, builder, signature, arguments):
+        places = [builder.add(arguments[1], arguments[2])] * len(columns)
+        _ask(context, builder, signature.args[0], arguments[0], places, 1)
+        return context.get_dummy_value()
+
+    return types.void(columns, types.intp, types.intp), generate
+
+
+def _reached(builder, arguments):
+    _, by_row, by_step, which, first, index = arguments
+    places = []
+    for k in range(by_row.type.count):
+        base = builder.mul(which, builder.extract_value(by_row, k))
+        base = builder.add(base, builder.mul(first, builder.extract_value(by_step, k)))
+        places.append(builder.add(base, index))
+    return places
+
+
+def _ask(context, builder, kinds, columns, places, writing):
+    """Lines of the caches, to be read or written soon."""
+    address, number = ir.IntType(8).as_pointer(), ir.IntType(32)
+    kind = ir.FunctionType(ir.VoidType(), [address, number, number, number])
+    ask = builder.module.declare_intrinsic("llvm.prefetch", [address], kind)
+    for k, (column, place) in enumerate(zip(kinds, places, strict=True)):
+        pointer = _pointer(context, builder, column, builder.extract_value(columns, k), place)
+        builder.call(ask, [builder.bitcast(pointer, address), number(writing), number(3), number(1)])
 
 
 @intrinsic(prefer_literal=True)

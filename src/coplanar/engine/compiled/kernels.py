@@ -8,11 +8,11 @@ import threading
 from types import FunctionType
 
 import numpy as np
-from numba import njit
+from numba import get_num_threads, njit
 
 from coplanar.engine import memory
 from coplanar.engine.binding import bind
-from coplanar.engine.compiled import loops, scans, walks
+from coplanar.engine.compiled import loops, scans, stretches, walks
 from coplanar.engine.compiled.cache import in_folder
 from coplanar.engine.compiled.columns import WIDTH
 from coplanar.engine.compiled.digest import digest_of
@@ -24,6 +24,7 @@ from coplanar.engine.compiled.single import in_single
 
 VECTOR = 8  # numbers in the widest vectors
 SPREAD_ROWS = 1 << 18  # rows that are laid out at a time where an array does not lie as the loop reads it
+FEW = 8  # rows; fewer cannot be shared evenly as whole rows
 PARALLEL_FROM = 200_000  # rows; below, starting threads costs more than they save
 
 _fast_laws: dict = {}
@@ -125,7 +126,7 @@ class Kernel(Loops):
     """A law inside compiled loops: ``run`` over rows, ``scan`` over steps of rows, ``walk`` along rows of steps."""
 
     def __init__(self, law) -> None:
-        super().__init__({"law": law}, {"rows": loops, "scan": scans, "walk": walks})
+        super().__init__({"law": law}, {"rows": loops, "scan": scans, "walk": walks, "stretch": stretches})
 
     def scan(self, initial, inputs, parameters, outputs, size):
         """Carry the state from step to step.
@@ -172,8 +173,9 @@ class Kernel(Loops):
             for a, stride, pace in zip(inputs, strides, paces, strict=True)
         )
         constants = (("KEEP", outputs[0].size > rows),)
-        self.loop("walk", (first, hold, ins, strides, paces, outputs, (*size, group)), rows * steps, WIDTH * rows,
-                  constants)  # fmt: skip
+        long = rows < FEW and rows * steps >= PARALLEL_FROM and _has_threads()
+        self.loop("stretch" if long else "walk", (first, hold, ins, strides, paces, outputs, (*size, group)),
+                  rows * steps, rows * steps if long else WIDTH * rows, constants)  # fmt: skip
 
     def run_into(self, outputs, inputs, shape):
         """``run`` where the outputs may lie in memory as they like, over the inputs too."""
@@ -210,6 +212,11 @@ def _slabs(shape, most):
     for outer in np.ndindex(shape[:axis]):
         for first in range(0, shape[axis], length):
             yield (*outer, slice(first, first + length))
+
+
+def _has_threads():
+    """Whether there is more than one thread to share the work; a forked child has one."""
+    return os.getpid() == _process and get_num_threads() > 1
 
 
 def _group(steps):

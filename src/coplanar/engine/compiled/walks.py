@@ -15,121 +15,137 @@ from __future__ import annotations
 import numpy as np
 from numba import prange
 
-from coplanar.engine.compiled.columns import WIDTH, gather, get, put, reach, scatter
+from coplanar.engine.compiled.columns import WIDTH, claim, fetch, gather, get, put, reach, scatter
+from coplanar.engine.compiled.lanes import LANES, sums, sums_into
 
 LONG = 4  # columns of a table that make one of a tile: the longer the tile, the less often its loops begin
 TILE = LONG * WIDTH
 TURN, X, Y = 0, LONG, 2 * LONG  # where the columns begin
+BLOCK = 4 * LANES  # entries between two calls for memory; a part of TILE
+SHARE = 8  # groups that a thread takes at a time
 
 
-def headings(table, first, count, heading):
-    """Turns into the headings before them; returns the heading after the last one.
-
-    Four at a time, so that a sum waits for one addition of the sum before it and not for four.
-    """
-    whole = first + count - count % 4
-    for k in range(first, whole, 4):
-        a, b = get(table, TURN, k), get(table, TURN, k + 1)
-        c, d = get(table, TURN, k + 2), get(table, TURN, k + 3)
-        put(table, TURN, k, heading)
-        put(table, TURN, k + 1, heading + a)
-        put(table, TURN, k + 2, heading + (a + b))
-        put(table, TURN, k + 3, heading + (a + b + c))
-        heading += (a + b) + (c + d)
+def running(table, column, first, count, begin):
+    """A row's part of a column becomes ``begin`` plus the sums before each entry; returns the sum of all entries."""
+    total = 0.0
+    whole = first + count - count % LANES
+    for k in range(first, whole, LANES):
+        total = sums(table, column, k, total, begin)
     for k in range(whole, first + count):
-        a = get(table, TURN, k)
-        put(table, TURN, k, heading)
-        heading += a
-    return heading
+        entry = get(table, column, k)
+        put(table, column, k, begin + total)
+        total += entry
+    return total
 
 
-def places(table, column, first, count, place, out, there):
-    """The places before each way of a column, from ``there`` on in the output; returns the place after the last one."""
-    whole = first + count - count % 4
+def lay(table, column, first, count, begin, out, there):
+    """As ``running``, but written to an output from ``there`` on."""
+    total = 0.0
+    whole = first + count - count % LANES
     there -= first
-    for k in range(first, whole, 4):
-        a, b = get(table, column, k), get(table, column, k + 1)
-        c, d = get(table, column, k + 2), get(table, column, k + 3)
-        if KEEP:  # noqa: F821
-            scatter(out, there, k, place)
-            scatter(out, there, k + 1, place + a)
-            scatter(out, there, k + 2, place + (a + b))
-            scatter(out, there, k + 3, place + (a + b + c))
-        place += (a + b) + (c + d)
+    for k in range(first, whole, LANES):
+        total = sums_into(out, there, table, column, k, total, begin)
     for k in range(whole, first + count):
-        if KEEP:  # noqa: F821
-            scatter(out, there, k, place)
-        place += get(table, column, k)
-    return place
+        scatter(out, there, k, begin + total)
+        total += get(table, column, k)
+    return total
 
 
 def turned(table, poses, rows, count):
-    """Headings of a tile of rows; those after it go into the poses. Returns their sum: NaN if one is."""
+    """Headings of a tile of rows; their turns go into the poses. Returns the sum of all: NaN if one is."""
     total = 0.0
     for r in range(rows):
-        poses[1, r] = headings(table, r * count, count, poses[0, r])
+        poses[1, r] = running(table, TURN, r * count, count, poses[0, r])
         total += poses[1, r]
     return total
 
 
-def ways(table, poses, ins, strides, paces, row, first, rows, count):
-    """Headings and ways of a tile; where the fast law says NaN, by the safe one."""
+def turns(table, poses, ins, strides, paces, row, first, rows, count):
+    """Headings before the steps of a tile; where the fast law says NaN, by the safe one."""
     for i in range(rows * count):
         put(table, TURN, i, law(0.0, 0.0, 0.0, *reach(ins, strides, paces, row, first, i))[2])  # noqa: F821
     total = turned(table, poses, rows, count)
-    doubtful = 0 if total == total else 1  # NaN is what does not equal itself
-    for i in range(rows * count):
-        x, y, _ = law(0.0, 0.0, get(table, TURN, i), *reach(ins, strides, paces, row, first, i))  # noqa: F821
-        put(table, X, i, x)
-        put(table, Y, i, y)
-        doubtful += 0 if x + y == x + y else 1
-    if doubtful:
+    if total != total:  # NaN is what does not equal itself
         for i in range(rows * count):
             put(table, TURN, i, safe_law(0.0, 0.0, 0.0, *reach(ins, strides, paces, row, first, i))[2])  # noqa: F821
         turned(table, poses, rows, count)
-        for i in range(rows * count):
+
+
+def ways(table, ins, strides, paces, outs, there, row, first, count):
+    """Ways of a tile by its headings; where the fast law says NaN, by the safe one.
+
+    While the law keeps the processor busy, memory is told what comes next: the places of this tile, the inputs of the
+    next. A last block that is not full begins earlier and does some entries again.
+    """
+    doubtful, block = 0, min(BLOCK, count)
+    for begin in range(0, count, BLOCK):
+        for k in range(begin, begin + BLOCK, LANES):
+            fetch(ins, strides, paces, row, first, count + k)
+            if KEEP:  # noqa: F821
+                claim(outs, there, k)
+        base = min(begin, count - block)
+        for k in range(block):
+            i = base + k
+            x, y, _ = law(0.0, 0.0, get(table, TURN, i), *reach(ins, strides, paces, row, first, i))  # noqa: F821
+            put(table, X, i, x)
+            put(table, Y, i, y)
+            doubtful += 0 if x + y == x + y else 1
+    if doubtful:
+        for i in range(count):
             x, y, _ = safe_law(0.0, 0.0, get(table, TURN, i), *reach(ins, strides, paces, row, first, i))  # noqa: F821
             put(table, X, i, x)
             put(table, Y, i, y)
 
 
-def walk_rows(begin, hold, ins, strides, paces, outs, size, row, rows):
+def walk_tile(table, poses, ins, strides, paces, outs, size, row, first, rows, count):
+    """One tile from the poses before it, in which the poses after it are left."""
+    xs, ys, angles = (outs[0],), (outs[1],), (outs[2],)
+    turns(table, poses, ins, strides, paces, row, first, rows, count)
+    ways(table, ins, strides, paces, outs, row * (size[1] + 1) + first, row, first, rows * count)
+    for r in range(rows):
+        begin = r * count
+        if KEEP:  # noqa: F821
+            there = (row + r) * (size[1] + 1) + first
+            for k in range(count):
+                scatter(angles, there, k, get(table, TURN, begin + k))
+            poses[2, r] += lay(table, X, begin, count, poses[2, r], xs, there)
+            poses[3, r] += lay(table, Y, begin, count, poses[3, r], ys, there)
+        else:
+            poses[2, r] += running(table, X, begin, count, 0.0)
+            poses[3, r] += running(table, Y, begin, count, 0.0)
+        poses[0, r] += poses[1, r]
+
+
+def walk_rows(table, poses, begin, hold, ins, strides, paces, outs, size, row, rows):
     """A few rows from their first poses to the end: one tile of all, or one row tile by tile."""
     steps = size[1]
-    table, poses = np.empty((3 * LONG, WIDTH)), np.empty((4, TILE))  # heading, heading after the tile, x, y
     for r in range(rows):
         poses[2, r], poses[3, r], poses[0, r] = gather(begin, hold, row + r, 0)
-    xs, ys, angles = (outs[0],), (outs[1],), (outs[2],)
     for first in range(0, steps, TILE):
-        count = min(TILE, steps - first)
-        ways(table, poses, ins, strides, paces, row, first, rows, count)
-        for r in range(rows):
-            there = (row + r) * (steps + 1) + first
-            poses[2, r] = places(table, X, r * count, count, poses[2, r], xs, there)
-            poses[3, r] = places(table, Y, r * count, count, poses[3, r], ys, there)
-            poses[0, r] = poses[1, r]
-            if KEEP:  # noqa: F821
-                for k in range(count):
-                    scatter(angles, there, k, get(table, TURN, r * count + k))
+        walk_tile(table, poses, ins, strides, paces, outs, size, row, first, rows, min(TILE, steps - first))
     for r in range(rows):
         last = (row + r) * (steps + 1) + steps if KEEP else row + r  # noqa: F821
         scatter(outs, last, 0, (poses[2, r], poses[3, r], poses[0, r]))
 
 
+def walk_share(begin, hold, ins, strides, paces, outs, size, group, groups):
+    """Some groups of rows, one after another."""
+    rows, many = size[0], size[2]
+    table, poses = np.empty((3 * LONG, WIDTH)), np.empty((4, TILE))  # heading, turn in the tile, x, y
+    for row in range(group * many, min(rows, (group + groups) * many), many):
+        walk_rows(table, poses, begin, hold, ins, strides, paces, outs, size, row, min(many, rows - row))
+
+
 def walk_serial(begin, hold, ins, strides, paces, outs, size):
     """All rows, one group after another."""
-    rows, group = size[0], size[2]
-    for g in range((rows + group - 1) // group):
-        row = g * group
-        walk_rows(begin, hold, ins, strides, paces, outs, size, row, min(group, rows - row))
+    walk_share(begin, hold, ins, strides, paces, outs, size, 0, size[0])
 
 
 def walk_parallel(begin, hold, ins, strides, paces, outs, size):
     """All rows, the groups shared among threads."""
-    rows, group = size[0], size[2]
-    for g in prange((rows + group - 1) // group):
-        row = g * group
-        walk_rows(begin, hold, ins, strides, paces, outs, size, row, min(group, rows - row))
+    groups = (size[0] + size[2] - 1) // size[2]
+    for share in prange((groups + SHARE - 1) // SHARE):
+        walk_share(begin, hold, ins, strides, paces, outs, size, share * SHARE, SHARE)
 
 
-PARTS = (headings, places, turned, ways, walk_rows)
+PARTS = (running, lay, turned, turns, ways, walk_tile, walk_rows, walk_share)
