@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from coplanar import Arm, Displacement, Pose, Segment, Twist
+from coplanar import Arm, Displacement, Odometry, Pose, Segment, Twist
 from coplanar.errors import InvalidShape
 
 ROWS = [(), (1,), (5,), (2, 3), (30_000,)]
@@ -42,12 +42,24 @@ def forward(rows):
     return lambda out: Arm((1.0, 0.5, 0.3), tool=Pose(0.1, 0.2, 0.3)).forward(q, out=out)
 
 
-CALLS = [step, integrate, end, at, forward]
+def path(rows, **how):
+    *lead, n = rows
+    odometry = Odometry(triple(Displacement, (*lead, n - 1)))
+    return lambda out: odometry.path(Pose(0.5, 0.2, 0.1), out=out, **how)
+
+
+def euler(rows):
+    return path(rows, method="euler")
+
+
+CALLS = [step, integrate, end, at, forward, path, euler]
 
 
 @pytest.mark.parametrize("rows", ROWS, ids=str)
 @pytest.mark.parametrize("make", CALLS)
 def test_a_pose_is_written_where_the_caller_wants_it(make, rows):
+    if make in (path, euler) and not (rows and rows[-1] > 1):
+        pytest.skip("a path has two poses or more")
     call, out = make(rows), np.empty((3, *rows))
     expected, answer = call(None), call(out)
     assert answer == expected

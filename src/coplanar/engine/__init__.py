@@ -37,7 +37,7 @@ from coplanar.engine.foreign import components, is_foreign, namespace_of, stack
 from coplanar.engine.policy import can_compile, reproducible, warm_up
 from coplanar.engine.scan import Scan
 from coplanar.engine.search import Search
-from coplanar.engine.walk import Walk, running_sum
+from coplanar.engine.walk import Walk, running_sum, written
 
 __all__ = [
     "PI",
@@ -83,4 +83,5 @@ __all__ = [
     "turn_remainder",
     "warm_up",
     "where",
+    "written",
 ]

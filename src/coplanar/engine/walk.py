@@ -57,25 +57,29 @@ class Walk:
         self._evaluator: Evaluator = evaluator(law)
         functools.update_wrapper(self, law)
 
-    def __call__(self, begin: Columns, inputs: Columns, *, keep: str = "all") -> Any:
+    def __call__(self, begin: Columns, inputs: Columns, *, keep: str = "all", out: np.ndarray | None = None) -> Any:
         """Carry poses through all steps.
 
         Args:
             begin: x, y and theta before the first step: numbers, or arrays that broadcast to the leading shape.
             inputs: Numbers, or arrays that broadcast to shape (..., steps); one of them at least has that last axis.
             keep: "all" for the pose before the first step and after every step, "end" for the last one only.
+            out: Where all poses are written: float64, shape (3, ..., steps + 1).
 
         Returns:
             x, y and theta, each of shape (..., steps + 1) or (...); a float for shape (). Not to be written.
         """
         given = (*begin, *inputs)
         if any(map(is_foreign, given)):
-            return self.on_text(begin, inputs, keep)
+            return self.on_text(begin, inputs, keep)  # these libraries do not write
         first, tables = ([np.asarray(a, np.float64) for a in group] for group in (begin, inputs))
         shape = np.broadcast_shapes(*(a.shape for a in tables), *((*a.shape, 1) for a in first))
         if pays(math.prod(shape), False):
-            return self.on_compiled(first, tables, shape, keep)
-        return self.on_text(begin, inputs, keep)
+            fits = out is not None and out.flags.c_contiguous and not any(np.may_share_memory(out, a) for a in given)
+            poses = self.on_compiled(first, tables, shape, keep, out if fits else None)
+        else:
+            fits, poses = False, self.on_text(begin, inputs, keep)
+        return poses if out is None or fits else written(out, poses)
 
     def on_text(self, begin: Columns, inputs: Columns, keep: str) -> Any:
         """By running sums over whole arrays."""
@@ -88,17 +92,25 @@ class Walk:
             return poses
         return tuple(float(e) if isinstance(e, np.ndarray) and not e.ndim else e for e in (p[..., -1] for p in poses))
 
-    def on_compiled(self, begin: Columns, inputs: Columns, shape: tuple[int, ...], keep: str) -> Any:
-        """Tile by tile in one compiled loop."""
+    def on_compiled(
+        self, begin: Columns, inputs: Columns, shape: tuple[int, ...], keep: str, out: np.ndarray | None = None
+    ) -> Any:
+        """Tile by tile in one compiled loop, into contiguous memory apart from the inputs where it is given."""
         lead, steps = shape[:-1], shape[-1]
         rows = math.prod(lead)
-        whole = memory.empty((3, *lead, steps + 1) if keep == "all" else (3, *lead))
+        whole = memory.empty((3, *lead, steps + 1) if keep == "all" else (3, *lead)) if out is None else out
         self._evaluator.kernel().walk(
             [_flat(b, lead) for b in begin], [_along(a, shape) for a in inputs],
             tuple(whole.reshape(3, -1)), (rows, steps),
         )  # fmt: skip
-        whole.flags.writeable = False
         return tuple(whole) if whole.ndim > 1 else tuple(map(float, whole))
+
+
+def written(out: np.ndarray, poses: Sequence[Any]) -> Any:
+    """The poses where they are wanted."""
+    for row, part in zip(out, poses, strict=True):
+        row[...] = part
+    return tuple(out)
 
 
 def _flat(array: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:

@@ -9,7 +9,7 @@ import numpy as np
 
 from coplanar import checks
 from coplanar.checks import ArrayLike, Real
-from coplanar.engine import Walk, evaluator, is_foreign, memory, running_sum
+from coplanar.engine import Walk, evaluator, is_foreign, memory, running_sum, written
 from coplanar.errors import InvalidShape, InvalidValue
 from coplanar.integrators import METHODS
 from coplanar.laws import motion as laws
@@ -134,7 +134,7 @@ class Odometry:
         distance, turn = _wheel_increments(*ways.values())
         return cls(Displacement._of(distance, 0.0, turn))
 
-    def path(self, start: Pose, *, method: str = EXACT) -> Pose:
+    def path(self, start: Pose, *, method: str = EXACT, out: np.ndarray | None = None) -> Pose:
         """The pose before each tick and after the last one, shape (..., n + 1), with no loop over ticks.
 
         Headings are running sums of turns, positions running sums of chords. Headings are never wrapped.
@@ -143,18 +143,24 @@ class Odometry:
             start: Where it begins.
             method: "exact" for arcs, or a Runge-Kutta method ("euler", "midpoint", "heun", "rk4") that takes one step
                 along the twist of each tick, to see what it costs.
+            out: Where x, y and theta are written, shape (3, ..., n + 1); the poses that come back look at it.
 
         Raises:
             UnknownName: If there is no such method.
+            InvalidShape: If ``out`` is of another shape or type.
 
         Example:
             >>> Odometry(Displacement([1.0, 1.0], 0.0, 0.0)).path(Pose(1.0, 2.0, 0.0)).y.tolist()
             [2.0, 2.0, 2.0]
         """
         checks.choice("method", method, PATH_METHODS)
+        if out is not None:
+            *lead, n = np.broadcast_shapes((*start.shape, 1), self.increments.shape)
+            checks.output(out, (3, *lead, n + 1))
         if method == EXACT:
-            return Pose._of(*_walk(start.parts, self.increments.parts))
-        return walked(self.increments, start, method)[0]
+            return Pose._of(*_walk(start.parts, self.increments.parts, out=out))
+        path = walked(self.increments, start, method)[0]
+        return path if out is None else Pose._of(*written(out, path.parts))
 
     def end(self, start: Pose) -> Pose:
         """The pose after the last tick, the last one of ``path``; the others take no memory.
