@@ -69,6 +69,22 @@ def sincos(x):
 
 
 @inline
+def sin(x):
+    """Sine alone: reduction by pi in three parts, then r (1 + z P(z)), z = r^2, P of degree 7 (error 1.3e-18)."""
+    shifted = x * 0.3183098861837907 + WHOLE
+    turns = shifted - WHOLE
+    r = x - turns * 3.1415926534682512
+    r = r - turns * 1.2154201012607932e-10
+    r = r - turns * 4.0445324975919012e-21
+    z = r * r
+    p = -0.16666666666666666 + z * (0.008333333333333316 + z * (-0.00019841269841254955 + z * (
+        2.755731921915843e-06 + z * (-2.5052107616384595e-08 + z * (1.6058977272815506e-10 + z * (
+            -7.643969031052769e-13 + z * 2.731428986122616e-15))))))  # fmt: skip
+    sine = _float_of(_bits(r + r * z * p) ^ (_bits(shifted) << 63))
+    return sine if abs(x) <= FAR else math.nan
+
+
+@inline
 def atan2(y, x):
     """Angle of (x, y): atan t = t + t z P(z), z = t^2, |t| <= tan(pi/8), P of degree 11 (error 1.2e-18).
 

@@ -28,11 +28,13 @@ def _root(make):
     return make(sqrt)
 
 
-def _trigonometry(pair, angle, series_of_dsinc, make):
-    """The primitives that follow from sincos and atan2."""
+def _trigonometry(pair, angle, series_of_dsinc, make, sine=None):
+    """The primitives that follow from sincos and atan2, and from a sine of its own where there is one."""
 
     def sin(x):
         return pair(x)[0]
+
+    alone = sine or make(sin)
 
     def cos(x):
         return pair(x)[1]
@@ -48,7 +50,7 @@ def _trigonometry(pair, angle, series_of_dsinc, make):
         small = abs(x) < SERIES_BELOW
         z = x * x
         series = 1.0 - z * (1.0 / 6.0 - z * (1.0 / 120.0))
-        return series if small else pair(x)[0] / (1.0 if small else x)
+        return series if small else alone(x) / (1.0 if small else x)
 
     def dsinc(x):
         small = abs(x) < DSINC_BELOW
@@ -56,7 +58,7 @@ def _trigonometry(pair, angle, series_of_dsinc, make):
         s, c = pair(apart)
         return x * series_of_dsinc(x * x) if small else (c - s / apart) / apart
 
-    return {f.__name__: make(f) for f in (sin, cos, tan, atan, sinc, dsinc)}
+    return {"sin": alone, **{f.__name__: make(f) for f in (cos, tan, atan, sinc, dsinc)}}
 
 
 def _common(make):
@@ -211,9 +213,9 @@ def _all_panels(integrand, points):
     return integrate
 
 
-def _primitives(functions, integral, make=inline):
+def _primitives(functions, integral, make=inline, sine=None):
     series_of_dsinc = make(dsinc_series)
-    follow = _trigonometry(functions["sincos"], functions["atan2"], series_of_dsinc, make)
+    follow = _trigonometry(functions["sincos"], functions["atan2"], series_of_dsinc, make, sine)
     return {
         **_common(make), **functions, **follow, "sqrt": _root(make), "integral": integral,
         "dsinc_series": series_of_dsinc,
@@ -221,7 +223,7 @@ def _primitives(functions, integral, make=inline):
 
 
 _LIBM = _libm()
-FAST = _primitives({name: getattr(elementary, name) for name in _LIBM}, _one_panel(inline, float))
+FAST = _primitives({name: getattr(elementary, name) for name in _LIBM}, _one_panel(inline, float), sine=elementary.sin)
 SINGLE = _primitives(elementary_functions(_LIBM), _one_panel(in_single, np.float32), in_single)
 SAFE = _primitives(_LIBM, _all_panels)
 NAN_WHERE_NOT = frozenset(
