@@ -9,6 +9,7 @@ from coplanar.engine import Scan, evaluator, log, sin, sincos, where
 from tests.engines import BATCH_SHAPES, NEEDS_JAX, NEEDS_NUMBA
 
 EPS = np.finfo(float).eps
+WIDTHS = [1, 5, 31, 32, 33, 255, 256, 257, 263, 265, 512, 513, 530]  # about the blocks and the vectors within them
 
 
 def drive(x, y, theta, v, omega, dt):
@@ -132,3 +133,72 @@ def test_what_is_kept_is_what_all_would_keep(engine, shape, keep):
     some = on(engine, drive, initial, inputs, [0.1], keep)
     for k, (column, part) in enumerate(zip(whole, some, strict=True)):
         assert np.array_equal(part, column if k in keep else column[-1])
+
+
+def drives(width, steps=11, *, own=False):
+    """So many robots of the same draws: initial states, inputs, one of them a robot's own if asked for, parameters."""
+    rng = np.random.default_rng(6)
+    initial = list(rng.uniform(-1.0, 1.0, (3, width)))
+    return initial, [rng.uniform(-1.0, 1.0, (steps, width) if own else steps), rng.uniform(-1.0, 1.0, steps)], [0.1]
+
+
+@NEEDS_NUMBA
+@pytest.mark.parametrize("own", [False, True], ids=["shared", "own"])
+@pytest.mark.parametrize("width", WIDTHS)
+def test_every_width_is_the_loop_of_each_row(width, own):
+    initial, inputs, _ = drives(width, own=own)
+    gains = [np.linspace(0.1, 0.2, width)]
+    whole = on("compiled", drive, initial, inputs, gains, "all")
+    for answer, right in zip(whole, step_by_step(drive, initial, inputs, gains, "all"), strict=True):
+        assert np.max(np.abs(answer - right)) <= 30 * EPS
+    for answer, column in zip(on("compiled", drive, initial, inputs, gains, "end"), whole, strict=True):
+        assert np.array_equal(answer, column[-1])
+    for k in {0, width // 2, width - 1}:
+        one, steps = [s[k] for s in initial], [t[:, k] if t.ndim > 1 else t for t in inputs]
+        floats = on("text", drive, one, steps, [gains[0][k]], "end")
+        for answer, right in zip(whole, floats, strict=True):
+            assert abs(answer[-1, k] - right) <= 30 * EPS
+
+
+@NEEDS_NUMBA
+@pytest.mark.parametrize("own", [False, True], ids=["shared", "own"])
+@pytest.mark.parametrize("width", [528, 530, 700, 1001])
+def test_threads_change_no_bit(width, own, monkeypatch):
+    from coplanar.engine.compiled import kernels
+
+    given = drives(width, own=own)
+    monkeypatch.setattr(kernels, "PARALLEL_FROM", 1 << 60)
+    alone = on("compiled", drive, *given, "all")
+    monkeypatch.setattr(kernels, "PARALLEL_FROM", 0)
+    for a, b in zip(alone, on("compiled", drive, *given, "all"), strict=True):
+        assert np.array_equal(a, b)
+
+
+@NEEDS_NUMBA
+@pytest.mark.parametrize("keep", ["all", (1,)], ids=str)
+@pytest.mark.parametrize("width", WIDTHS)
+def test_results_beyond_the_caches_are_the_same(width, keep, monkeypatch):
+    from coplanar.engine.compiled import kernels
+
+    given = drives(width)
+    near = on("compiled", drive, *given, keep)
+    monkeypatch.setattr(kernels, "CACHES", 0)
+    for a, b in zip(near, on("compiled", drive, *given, keep), strict=True):
+        assert np.array_equal(a, b)
+
+
+@NEEDS_NUMBA
+@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize("odd", [3e6, np.nan, np.inf], ids=str)
+def test_one_odd_row_changes_no_other(width, odd):
+    initial, inputs, parameters = drives(width)
+    usual = on("compiled", drive, initial, inputs, parameters, "all")
+    for k in {0, width // 2, width - 1}:
+        angles = initial[2].copy()
+        angles[k] = odd
+        answers = on("compiled", drive, [*initial[:2], angles], inputs, parameters, "all")
+        right = step_by_step(drive, [*initial[:2], angles], inputs, parameters, "all")
+        others = np.arange(width) != k
+        for answer, column, whole in zip(answers, right, usual, strict=True):
+            assert np.array_equal(answer[:, others], whole[:, others])
+            assert np.allclose(answer[:, k], column[:, k], rtol=1e-15, atol=30 * EPS, equal_nan=True)

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from coplanar.engine import memory
 from coplanar.engine.evaluator import Evaluator, evaluator
 from coplanar.engine.foreign import alike, is_foreign
 from coplanar.engine.policy import pays
@@ -89,7 +90,7 @@ class Scan:
         """All steps in one compiled loop; what is kept at every step lies in one memory."""
         count, width = len(tables[0]), math.prod(rows)
         kept = _kept(keep, len(state))
-        histories = iter(np.empty((len(kept), count + 1, *rows)))
+        histories = iter(memory.empty((len(kept), count + 1, *rows)))
         whole = tuple(next(histories) if k in kept else np.empty(rows) for k in range(len(state)))
         self._evaluator.kernel().scan(
             [_column(s, rows) for s in state], [_table(t, rows) for t in tables],

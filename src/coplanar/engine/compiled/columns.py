@@ -19,7 +19,7 @@ def _pointer(context, builder, kind, column, place):
     return cgutils.get_item_pointer(context, builder, kind, array, [place], wraparound=False)
 
 
-def _sum(builder, values):
+def sum_in_pairs(builder, values):
     """Their sum, pair by pair: the fewer additions wait for one another, the sooner it is there."""
     while len(values) > 1:
         pairs = zip(values[::2], values[1::2], strict=False)
@@ -205,7 +205,7 @@ def scatter(typing, columns, start, i, row):
             pointer = _pointer(context, builder, kind, builder.extract_value(table, k), place)
             context.pack_value(builder, kind.dtype, value, pointer)
             written.append(value)
-        return _sum(builder, written)
+        return sum_in_pairs(builder, written)
 
     return columns[0].dtype(columns, types.intp, types.intp, row), generate
 
@@ -216,37 +216,9 @@ def sum_of(typing, columns, start, i):
 
     def generate(context, builder, signature, arguments):
         place = builder.add(arguments[1], arguments[2])
-        return _sum(builder, _read(context, builder, signature.args[0], arguments[0], [place] * len(columns)))
+        return sum_in_pairs(builder, _read(context, builder, signature.args[0], arguments[0], [place] * len(columns)))
 
     return columns[0].dtype(columns, types.intp, types.intp), generate
-
-
-@intrinsic
-def total_of(typing, row):
-    """Sum of a law's answer, a number or a tuple: NaN if an entry is NaN (or infinities cancel)."""
-    many = isinstance(row, types.BaseTuple)
-
-    def generate(context, builder, signature, arguments):
-        (given,) = arguments
-        return _sum(builder, [builder.extract_value(given, k) for k in range(len(row))] if many else [given])
-
-    return (row[0] if many else row)(row), generate
-
-
-@intrinsic(prefer_literal=True)
-def spill(typing, outs, table, start, rows, pattern):
-    """Copy the first rows of a table's columns to ``start`` in the outputs; bit k of the pattern asks for column k."""
-    chosen = [k for k in range(len(outs)) if pattern.literal_value >> k & 1]
-
-    def generate(context, builder, signature, arguments):
-        columns, values, place, count, _ = arguments
-        for k in chosen:
-            target = _pointer(context, builder, signature.args[0][k], builder.extract_value(columns, k), place)
-            source = _entry(context, builder, (values, place.type(k), place.type(0)), signature.args[1], 0)
-            cgutils.raw_memcpy(builder, target, source, count, 8)
-        return context.get_dummy_value()
-
-    return types.void(outs, table, types.intp, types.intp, pattern), generate
 
 
 @intrinsic

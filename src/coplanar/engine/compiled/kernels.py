@@ -25,6 +25,7 @@ from coplanar.engine.compiled.single import in_single
 VECTOR = 8  # numbers in the widest vectors
 SPREAD_ROWS = 1 << 18  # rows that are laid out at a time where an array does not lie as the loop reads it
 FEW = 8  # rows; fewer cannot be shared evenly as whole rows
+CACHES = 1 << 24  # [bytes] of results that still pay to keep in the caches
 PARALLEL_FROM = 200_000  # rows; below, starting threads costs more than they save
 
 _fast_laws: dict = {}
@@ -140,18 +141,20 @@ class Kernel(Loops):
             size: Steps and rows.
         """
         count, width = size
+        begin, fixed = (tuple(_read_only(a) for a in group) for group in (initial, parameters))
+        walk, hold = (tuple(int(a.size > 1) for a in group) for group in (begin, fixed))
         owned = [array.size != count for array in inputs]
-        begin, walk = zip(*(_column(a, (width,), width) for a in initial), strict=True)
-        held = [_column(a, (width,), width) for a in parameters]
-        shared = tuple(_read_only(a) for a, own in zip(inputs, owned, strict=True) if not own)
-        own = tuple(_read_only(a) for a, own in zip(inputs, owned, strict=True) if own)
-        pattern = sum(1 << k for k, own in enumerate(owned) if own)
-        arguments = (
-            begin, walk, shared, own, tuple(c for c, _ in held), tuple(s for _, s in held), outputs, (count, width)
+        shared, own = (
+            tuple(_read_only(a) for a, mine in zip(inputs, owned, strict=True) if mine == which)
+            for which in (False, True)
+        )
+        kept = [out.size > width for out in outputs]
+        large = 8 * sum(out.size for out in outputs) > CACHES
+        arguments = (begin, walk, shared, own, fixed, hold, outputs, (count, width, large))
+        constants = (
+            ("STATES", len(outputs)), ("FIXED", len(fixed)), ("PATTERN", _bits(owned)),
+            ("KEPT", _bits(kept)), ("ENDS", _bits([not keeps for keeps in kept])),
         )  # fmt: skip
-        kept = sum(1 << k for k, out in enumerate(outputs) if out.size > width)
-        ends = (1 << len(outputs)) - 1 - kept
-        constants = (("STATES", len(outputs)), ("PATTERN", pattern), ("KEPT", kept), ("ENDS", ends))
         self.loop("scan", arguments, count * width, width, constants)
 
     def walk(self, begin, inputs, outputs, size):
@@ -196,6 +199,10 @@ class Kernel(Loops):
         """
         constants = (("SINGLE", True),) if inputs[0].dtype == np.float32 else ()
         self.fill("rows", inputs, tuple([o.reshape(-1) for o in outputs]), shape, constants=constants)
+
+
+def _bits(flags):
+    return sum(1 << k for k, flag in enumerate(flags) if flag)
 
 
 def _laid_out(piece, space):
