@@ -12,7 +12,7 @@ from numba import get_num_threads, njit
 
 from coplanar.engine import memory
 from coplanar.engine.binding import bind
-from coplanar.engine.compiled import loops, scans, stretches, walks
+from coplanar.engine.compiled import layout, loops, scans, stretches, walks
 from coplanar.engine.compiled.cache import in_folder
 from coplanar.engine.compiled.columns import WIDTH
 from coplanar.engine.compiled.digest import digest_of
@@ -101,7 +101,7 @@ class Loops:
         Inputs that do not lie as the loop reads them are laid out, a part at a time.
         """
         rows = math.prod(shape)
-        ready = [_column(a, shape, rows) for a in inputs]
+        ready = [layout.column(a, shape, rows) for a in inputs]
         ins, steps = zip(*ready, strict=True)
         if None not in steps:
             self.loop(kind, (ins, steps, columns, rows, *more), work * rows, rows, constants)
@@ -111,11 +111,11 @@ class Loops:
         room = [None if column is not None else np.empty(min(rows, SPREAD_ROWS), a.dtype.newbyteorder("="))
                 for (column, _), a in zip(ready, inputs, strict=True)]  # fmt: skip
         start = 0
-        for index in _slabs(shape, SPREAD_ROWS):
+        for index in layout.slabs(shape, SPREAD_ROWS):
             count = whole[0][index].size
             stop = start + count
             ins = tuple(
-                _laid_out(array[index], space) if column is None else column[start:stop] if step else column
+                layout.laid_out(array[index], space) if column is None else column[start:stop] if step else column
                 for (column, step), array, space in zip(ready, whole, room, strict=True)
             )
             outs = tuple(c[start:stop] for c in columns)
@@ -141,11 +141,11 @@ class Kernel(Loops):
             size: Steps and rows.
         """
         count, width = size
-        begin, fixed = (tuple(_read_only(a) for a in group) for group in (initial, parameters))
+        begin, fixed = (tuple(layout.read_only(a) for a in group) for group in (initial, parameters))
         walk, hold = (tuple(int(a.size > 1) for a in group) for group in (begin, fixed))
         owned = [array.size != count for array in inputs]
         shared, own = (
-            tuple(_read_only(a) for a, mine in zip(inputs, owned, strict=True) if mine == which)
+            tuple(layout.read_only(a) for a, mine in zip(inputs, owned, strict=True) if mine == which)
             for which in (False, True)
         )
         kept = [out.size > width for out in outputs]
@@ -168,11 +168,13 @@ class Kernel(Loops):
         """
         rows, steps = size
         group = _group(steps)
-        first, hold = zip(*(_column(a, (rows,), rows) for a in begin), strict=True)
+        first, hold = zip(*(layout.column(a, (rows,), rows) for a in begin), strict=True)
         paces = tuple(int(array.size > 1) for array in inputs)
         strides = tuple(steps if array.size > steps else 0 for array in inputs)
         ins = tuple(
-            _read_only(a if stride else (np.tile(a, group) if group > 1 else a) if pace else _spread(a, walks.TILE))
+            layout.read_only(
+                a if stride else (np.tile(a, group) if group > 1 else a) if pace else layout.spread(a, walks.TILE)
+            )
             for a, stride, pace in zip(inputs, strides, paces, strict=True)
         )
         constants = (("KEEP", outputs[0].size > rows),)
@@ -182,7 +184,7 @@ class Kernel(Loops):
 
     def run_into(self, outputs, inputs, shape):
         """``run`` where the outputs may lie in memory as they like, over the inputs too."""
-        fit = [_may_be_written(out, inputs) for out in outputs]
+        fit = [layout.may_be_written(out, inputs) for out in outputs]
         targets = [out if fits else memory.empty(shape, out.dtype) for out, fits in zip(outputs, fit, strict=True)]
         self.run(inputs, targets, shape)
         for out, target in zip(outputs, targets, strict=True):
@@ -205,22 +207,6 @@ def _bits(flags):
     return sum(1 << k for k, flag in enumerate(flags) if flag)
 
 
-def _laid_out(piece, space):
-    """The piece in a row, in a space that it may fill."""
-    column = space[: piece.size]
-    column.reshape(piece.shape)[...] = piece
-    return _read_only(column)
-
-
-def _slabs(shape, most):
-    """Indices that cut an array into pieces of ``most`` rows or fewer, one after another as they lie in memory."""
-    axis = next(k for k in range(len(shape)) if math.prod(shape[k + 1 :]) <= most)
-    length = most // math.prod(shape[axis + 1 :])
-    for outer in np.ndindex(shape[:axis]):
-        for first in range(0, shape[axis], length):
-            yield (*outer, slice(first, first + length))
-
-
 def _has_threads():
     """Whether there is more than one thread to share the work; a forked child has one."""
     return os.getpid() == _process and get_num_threads() > 1
@@ -231,45 +217,6 @@ def _group(steps):
     most = max(1, walks.TILE // max(1, steps))
     even = VECTOR // math.gcd(steps, VECTOR)
     return most - most % even if most >= even else most
-
-
-def _column(array, shape, rows):
-    """The array as a flat column and its step; None and None where it has to be spread first.
-
-    All columns are read-only, so that a loop is compiled once whether or not the caller's arrays are.
-    """
-    layout = array.flags
-    if array.shape == shape and layout.aligned:
-        if layout.c_contiguous:
-            return array if array.ndim == 1 and not layout.writeable else _read_only(array), 1
-        if step := _even_step(array):
-            return _read_only(array[(slice(1),) * array.ndim]), step
-    if array.size and not any(s for s, n in zip(array.strides, array.shape, strict=True) if n > 1):
-        return _read_only(_spread(array, min(rows, loops.BLOCK))), 0
-    return None, None
-
-
-def _even_step(array):
-    """How many entries a row lies after the one before, where that is one number of at least 2; else 0."""
-    step, rest = divmod(array.strides[-1], array.itemsize)
-    even = [s == n * inner for s, n, inner in zip(array.strides[:-1], array.shape[1:], array.strides[1:], strict=True)]
-    return step if step > 1 and not rest and all(even) else 0
-
-
-def _spread(array, count):
-    """The one number of an array so many times."""
-    return np.full(count, array.flat[0], array.dtype)
-
-
-def _read_only(array):
-    column = array.reshape(-1)
-    column.setflags(write=False)
-    return column
-
-
-def _may_be_written(out, inputs):
-    """Whether the loop can write into ``out`` itself: a row may be read again after it was written."""
-    return out.flags.c_contiguous and out.flags.aligned and not any(np.may_share_memory(out, a) for a in inputs)
 
 
 def _label(laws, constants):

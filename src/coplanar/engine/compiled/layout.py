@@ -1,0 +1,65 @@
+"""How arrays lie: as the columns that loops read, and in parts where they do not lie as a column."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from coplanar.engine.compiled import loops
+
+
+def laid_out(piece, space):
+    """The piece in a row, in a space that it may fill."""
+    column = space[: piece.size]
+    column.reshape(piece.shape)[...] = piece
+    return read_only(column)
+
+
+def slabs(shape, most):
+    """Indices that cut an array into pieces of ``most`` rows or fewer, one after another as they lie in memory."""
+    axis = next(k for k in range(len(shape)) if math.prod(shape[k + 1 :]) <= most)
+    length = most // math.prod(shape[axis + 1 :])
+    for outer in np.ndindex(shape[:axis]):
+        for first in range(0, shape[axis], length):
+            yield (*outer, slice(first, first + length))
+
+
+def column(array, shape, rows):
+    """The array as a flat column and its step; None and None where it has to be spread first.
+
+    All columns are read-only, so that a loop is compiled once whether or not the caller's arrays are.
+    """
+    layout = array.flags
+    if array.shape == shape and layout.aligned:
+        if layout.c_contiguous:
+            return array if array.ndim == 1 and not layout.writeable else read_only(array), 1
+        if step := even_step(array):
+            return read_only(array[(slice(1),) * array.ndim]), step
+    if array.size and not any(s for s, n in zip(array.strides, array.shape, strict=True) if n > 1):
+        return read_only(spread(array, min(rows, loops.BLOCK))), 0
+    return None, None
+
+
+def even_step(array):
+    """How many entries a row lies after the one before, where that is one number of at least 2; else 0."""
+    step, rest = divmod(array.strides[-1], array.itemsize)
+    even = [s == n * inner for s, n, inner in zip(array.strides[:-1], array.shape[1:], array.strides[1:], strict=True)]
+    return step if step > 1 and not rest and all(even) else 0
+
+
+def spread(array, count):
+    """The one number of an array so many times."""
+    return np.full(count, array.flat[0], array.dtype)
+
+
+def read_only(array):
+    """The entries in a row, not to be written."""
+    column = array.reshape(-1)
+    column.setflags(write=False)
+    return column
+
+
+def may_be_written(out, inputs):
+    """Whether the loop can write into ``out`` itself: a row may be read again after it was written."""
+    return out.flags.c_contiguous and out.flags.aligned and not any(np.may_share_memory(out, a) for a in inputs)
