@@ -132,7 +132,9 @@ def _fold(xp: Any, step: Callable[..., Any], state: Any, tables: Sequence[Any]) 
 
 
 def _column(array: np.ndarray, rows: tuple[int, ...]) -> np.ndarray:
-    return array.reshape(1) if array.size == 1 else np.ascontiguousarray(np.broadcast_to(array, rows)).reshape(-1)
+    if array.size == 1:
+        return array.reshape(1)
+    return np.ascontiguousarray(array if array.shape == rows else np.broadcast_to(array, rows)).reshape(-1)
 
 
 def _table(array: np.ndarray, rows: tuple[int, ...]) -> np.ndarray:

@@ -80,7 +80,7 @@ def simulate(
     first = controller.start(reference, float(times[0])) if start is None else start
     shape = _shape(start=first, controller=controller, noise=noise, limits=limits, reference=reference)
     targets = controller.targets(reference, times, len(shape))
-    state = tuple(np.broadcast_to(part, shape) if shape else float(part) for part in first.parts)
+    state = tuple(_over(shape, part) if shape else float(part) for part in first.parts)
     bare = limits is None and noise is None and type(plant) is Unicycle
     roll = getattr(controller, "roll", None) if shape and bare else None
     if roll:
@@ -157,7 +157,7 @@ def _columns(course: _Course, kept: tuple[int, ...], names: tuple[str, ...], tim
 
 def _last_row(course: _Course, names: tuple[str, ...], times: np.ndarray, shape: tuple[int, ...]) -> dict[str, Any]:
     """A table of one row."""
-    ends = {name: np.broadcast_to(value, (1, *shape)).copy() for name, value in zip(names, course.end, strict=True)}
+    ends = {name: _over(shape, value)[None].copy() for name, value in zip(names, course.end, strict=True)}
     return {"t": times[course.last :][:1]} | ends
 
 
@@ -215,7 +215,15 @@ def _shape(*, reference: Any, **parts: Any) -> tuple[int, ...]:
     """The leading shape of everything that takes part: that of the batch of robots."""
     shapes = {name: part.shape for name, part in parts.items() if part is not None}
     shapes["reference"] = () if reference is None else reference.position(0.0).shape[:-1]
+    if len({*shapes.values()} - {()}) <= 1:
+        return max(shapes.values(), key=len)
     return checks.broadcast(**{name: np.broadcast_to(0.0, shape) for name, shape in shapes.items()})
+
+
+def _over(shape: tuple[int, ...], value: Real) -> np.ndarray:
+    """The value as an array of this shape."""
+    fits = np.shape(value) == shape
+    return np.asarray(value) if fits else np.broadcast_to(value, shape)
 
 
 def _rows(columns: Any, shape: tuple[int, ...]) -> Iterator[tuple[Any, ...]]:
