@@ -212,6 +212,10 @@ def _has_threads():
     return os.getpid() == _process and get_num_threads() > 1
 
 
+def _repeated(row, times):
+    return np.tile(row, times) if times > 1 else row
+
+
 def _group(steps):
     """How many whole rows of steps make a tile: a count of steps that fills vectors, if one does."""
     most = max(1, walks.TILE // max(1, steps))
