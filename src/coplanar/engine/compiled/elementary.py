@@ -44,13 +44,20 @@ def _float_of(typing, bits):
 
 
 @inline
-def sincos(x):
-    """Sine and cosine: reduction by pi/2 in three parts, then two polynomials.  [Cody and Waite 1980; fdlibm]"""
-    shifted = x * 0.6366197723675814 + WHOLE
+def _reduced(x, rate, high, middle, low):
+    """The angle less the nearest multiple of a part of a turn, in three parts, and a number whose bits hold which.
+
+    [Cody and Waite 1980]
+    """
+    shifted = x * rate + WHOLE
     turns = shifted - WHOLE
-    r = x - turns * 1.5707963267341256
-    r = r - turns * 6.077100506303966e-11
-    r = r - turns * 2.0222662487959506e-21
+    return ((x - turns * high) - turns * middle) - turns * low, shifted
+
+
+@inline
+def sincos(x):
+    """Sine and cosine: reduction by pi/2, then two polynomials.  [fdlibm]"""
+    r, shifted = _reduced(x, 0.6366197723675814, 1.5707963267341256, 6.077100506303966e-11, 2.0222662487959506e-21)
     z = r * r
     s = r + r * z * (
         -1.66666666666666324348e-01 + z * (8.33333333332248946124e-03 + z * (
@@ -70,12 +77,8 @@ def sincos(x):
 
 @inline
 def sin(x):
-    """Sine alone: reduction by pi in three parts, then r (1 + z P(z)), z = r^2, P of degree 7 (error 1.3e-18)."""
-    shifted = x * 0.3183098861837907 + WHOLE
-    turns = shifted - WHOLE
-    r = x - turns * 3.1415926534682512
-    r = r - turns * 1.2154201012607932e-10
-    r = r - turns * 4.0445324975919012e-21
+    """Sine alone: reduction by pi, then r (1 + z P(z)), z = r^2, P of degree 7 (error 1.3e-18)."""
+    r, shifted = _reduced(x, 0.3183098861837907, 3.1415926534682512, 1.2154201012607932e-10, 4.0445324975919012e-21)
     z = r * r
     p = -0.16666666666666666 + z * (0.008333333333333316 + z * (-0.00019841269841254955 + z * (
         2.755731921915843e-06 + z * (-2.5052107616384595e-08 + z * (1.6058977272815506e-10 + z * (
