@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -12,18 +13,35 @@ from coplanar import checks
 from coplanar.checks import ArrayLike, Real
 from coplanar.control.controller import Timed, as_column
 from coplanar.control.stability import StabilityReport, first_exit, judge, quadratic_roots
-from coplanar.control.unicycle import Command, State, lead_of
-from coplanar.engine import evaluator
+from coplanar.control.unicycle import ROWS, Command, State, lead_of
+from coplanar.engine import Scan, evaluator
 from coplanar.errors import InvalidValue
 from coplanar.laws import polar as laws
 from coplanar.se2 import Pose
 
 _coordinates = evaluator(laws.polar_coordinates)
-_settled = evaluator(laws.settled)
+
+
+class _Form(NamedTuple):
+    """The command, how it pulls near the goal, its usual gains, and the whole loop by steps or by arcs."""
+
+    command: Callable[..., Any]
+    pull: Callable[..., Any]
+    usual: tuple[float, float, float]
+    by_steps: Scan
+    by_arcs: Scan
+
+
 _FORMS = {
-    "linear": (evaluator(laws.polar_linear), evaluator(laws.polar_linear_pull), (3.0, 8.0, -1.5)),
-    "smooth": (evaluator(laws.polar_smooth), evaluator(laws.polar_smooth_pull), (3.0, 6.0, 1.0)),
-}
+    "linear": _Form(
+        evaluator(laws.drive_linear), evaluator(laws.polar_linear_pull), (3.0, 8.0, -1.5),
+        Scan(laws.linear_step), Scan(laws.linear_arc),
+    ),
+    "smooth": _Form(
+        evaluator(laws.drive_smooth), evaluator(laws.polar_smooth_pull), (3.0, 6.0, 1.0),
+        Scan(laws.smooth_step), Scan(laws.smooth_arc),
+    ),
+}  # fmt: skip
 _loop = evaluator(laws.polar_loop)
 _margin = evaluator(laws.polar_margin)
 _rates = evaluator(laws.polar_rates)
@@ -66,7 +84,7 @@ class PolarController:
         checks.choice("direction", self.direction, ("forward", "backward", "nearest"))
         if not isinstance(self.goal, Pose):
             raise InvalidValue("goal", self.goal, "a Pose")
-        for name, usual in zip(("k_rho", "k_alpha", "k_beta"), _FORMS[self.form][2], strict=True):
+        for name, usual in zip(("k_rho", "k_alpha", "k_beta"), _FORMS[self.form].usual, strict=True):
             given = getattr(self, name)
             object.__setattr__(self, name, usual if given is None else checks.frozen(checks.real(name, given)))
         object.__setattr__(self, "arrive_within", checks.positive("arrive_within", self.arrive_within))
@@ -94,7 +112,7 @@ class PolarController:
         """
         lead = lead_of(method)
         h = checks.positive("step", step)
-        pull = _FORMS[self.form][1](*self._gains)
+        pull = _FORMS[self.form].pull(*self._gains)
         damping, stiffness = _rates(self.k_rho, *pull)
         trace, det = _loop(h, self.k_rho, *pull, lead)
         along = np.broadcast_to(np.expand_dims(1.0 - h * self.k_rho, -1), (*np.shape(trace), 1))
@@ -148,9 +166,18 @@ class PolarController:
 
     def respond(self, state: State, target: Any, memory: Any, step: Real) -> tuple[Command, tuple[Real, ...], Any]:  # noqa: ARG002
         """The command for a measured state: (v, omega), the error (rho, alpha, beta), the direction."""
-        (x, y, theta), (gx, gy, gtheta), (sign,) = state, target, memory
-        flip = 0.5 * math.pi * (1.0 - sign)
-        rho, alpha, beta = _coordinates(x, y, theta + flip, gx, gy, gtheta + flip)
-        v, omega = _FORMS[self.form][0](rho, alpha, beta, *self._gains)
-        v, omega = _settled(rho, self.arrive_within, sign * v, omega, theta, gtheta, self.k_alpha)
-        return (v, omega), (rho, alpha, beta), memory
+        v, omega, *error = _FORMS[self.form].command(*state, *target, *memory, *self._gains, self.arrive_within)
+        return (v, omega), tuple(error), memory
+
+    def roll(
+        self, state: State, targets: Any, steps: np.ndarray, method: str, kept: Collection[int]  # noqa: ARG002
+    ) -> tuple[np.ndarray, ...]:  # fmt: skip
+        """The whole closed loop of a unicycle in one go: x, y, theta, v, omega, rho, alpha, beta.
+
+        Each has shape (steps + 1, ...) where its place is among those kept, else that of the last row.
+        """
+        form, row = _FORMS[self.form], () if method == "exact" else ROWS[method]
+        parameters = (*self.goal.parts, *self.memory(state), *self._gains, self.arrive_within, *row)
+        scan = form.by_arcs if method == "exact" else form.by_steps
+        columns: tuple[np.ndarray, ...] = scan((*state, *(0.0,) * 5), (steps,), parameters, keep=kept)
+        return columns

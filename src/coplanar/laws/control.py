@@ -43,9 +43,12 @@ def point_velocity(theta, px, py, v, omega):
 
 
 def point_command(theta, px, py, wx, wy):
-    """[v, omega] = A^-1 w, A^-1 = [[c - (py/px) s, s + (py/px) c], [-s/px, c/px]]."""
+    """[v, omega] = A^-1 w, A^-1 = [[c - (py/px) s, s + (py/px) c], [-s/px, c/px]].
+
+    By 1/px, whose division waits for nothing else in a step.
+    """
     s, c = sincos(theta)
-    omega = (c * wy - s * wx) / px
+    omega = (c * wy - s * wx) * (1.0 / px)
     return c * wx + s * wy + py * omega, omega
 
 

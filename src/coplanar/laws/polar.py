@@ -6,6 +6,8 @@ Aicardi, Casalino, Bicchi, Balestrino 1995, Closed loop steering of unicycle-lik
 """
 
 from coplanar.engine import PI, absolute, atan2, cos, hypot, minimum, sinc, where
+from coplanar.laws.control import unicycle_step
+from coplanar.laws.motion import arc
 from coplanar.laws.se2 import wrap
 
 
@@ -76,4 +78,65 @@ def polar_strong(k_rho, k_alpha, k_beta):
 def settled(rho, near, v, omega, theta, gtheta, k_alpha):
     """Within ``near`` of the goal only the heading is left: v = 0, omega = k_alpha (gtheta - theta)."""
     away = rho > near
-    return where(away, v, 0.0), where(away, omega, k_alpha * wrap(gtheta - theta))
+    left = wrap(where(away, 0.0, gtheta - theta))  # in the sum below, where no comparison hides a NaN of it
+    return where(away, v, 0.0), where(away, omega, 0.0) + k_alpha * left
+
+
+def facing(x, y, theta, gx, gy, gtheta, sign):
+    """``polar_coordinates`` of a robot that drives forward (sign = 1), or backward: robot and goal turned by pi."""
+    flip = 0.5 * PI * (1.0 - sign)
+    return polar_coordinates(x, y, theta + flip, gx, gy, gtheta + flip)
+
+
+def drive_linear(x, y, theta, gx, gy, gtheta, sign, k_rho, k_alpha, k_beta, near):
+    """[v, omega] by ``polar_linear`` until it has ``settled``; then rho, alpha and beta."""
+    rho, alpha, beta = facing(x, y, theta, gx, gy, gtheta, sign)
+    v, omega = polar_linear(rho, alpha, beta, k_rho, k_alpha, k_beta)
+    v, omega = settled(rho, near, sign * v, omega, theta, gtheta, k_alpha)
+    return v, omega, rho, alpha, beta
+
+
+def drive_smooth(x, y, theta, gx, gy, gtheta, sign, k_rho, k_alpha, k_beta, near):
+    """[v, omega] by ``polar_smooth`` until it has ``settled``; then rho, alpha and beta."""
+    rho, alpha, beta = facing(x, y, theta, gx, gy, gtheta, sign)
+    v, omega = polar_smooth(rho, alpha, beta, k_rho, k_alpha, k_beta)
+    v, omega = settled(rho, near, sign * v, omega, theta, gtheta, k_alpha)
+    return v, omega, rho, alpha, beta
+
+
+def linear_step(
+    x, y, theta, v, omega, rho, alpha, beta, h, gx, gy, gtheta, sign, k_rho, k_alpha, k_beta, near,
+    at_start, at_middle, at_end,
+):  # fmt: skip
+    """``drive_linear``, then ``control.unicycle_step``: one turn of the closed loop."""
+    v, omega, rho, alpha, beta = drive_linear(x, y, theta, gx, gy, gtheta, sign, k_rho, k_alpha, k_beta, near)
+    x, y, theta = unicycle_step(x, y, theta, v, omega, h, at_start, at_middle, at_end)
+    return x, y, theta, v, omega, rho, alpha, beta
+
+
+def linear_arc(
+    x, y, theta, v, omega, rho, alpha, beta, h, gx, gy, gtheta, sign, k_rho, k_alpha, k_beta, near
+):  # fmt: skip
+    """``drive_linear``, then the arc of the held command: one turn of the closed loop."""
+    v, omega, rho, alpha, beta = drive_linear(x, y, theta, gx, gy, gtheta, sign, k_rho, k_alpha, k_beta, near)
+    x, y, theta = arc(x, y, theta, v, omega, h)
+    return x, y, theta, v, omega, rho, alpha, beta
+
+
+def smooth_step(
+    x, y, theta, v, omega, rho, alpha, beta, h, gx, gy, gtheta, sign, k_rho, k_alpha, k_beta, near,
+    at_start, at_middle, at_end,
+):  # fmt: skip
+    """``drive_smooth``, then ``control.unicycle_step``: one turn of the closed loop."""
+    v, omega, rho, alpha, beta = drive_smooth(x, y, theta, gx, gy, gtheta, sign, k_rho, k_alpha, k_beta, near)
+    x, y, theta = unicycle_step(x, y, theta, v, omega, h, at_start, at_middle, at_end)
+    return x, y, theta, v, omega, rho, alpha, beta
+
+
+def smooth_arc(
+    x, y, theta, v, omega, rho, alpha, beta, h, gx, gy, gtheta, sign, k_rho, k_alpha, k_beta, near
+):  # fmt: skip
+    """``drive_smooth``, then the arc of the held command: one turn of the closed loop."""
+    v, omega, rho, alpha, beta = drive_smooth(x, y, theta, gx, gy, gtheta, sign, k_rho, k_alpha, k_beta, near)
+    x, y, theta = arc(x, y, theta, v, omega, h)
+    return x, y, theta, v, omega, rho, alpha, beta

@@ -148,13 +148,11 @@ class Kernel(Loops):
             tuple(layout.read_only(a) for a, mine in zip(inputs, owned, strict=True) if mine == which)
             for which in (False, True)
         )
-        kept = [out.size > width for out in outputs]
-        large = 8 * sum(out.size for out in outputs) > CACHES
+        kept, large = _bits(out.size > width for out in outputs), 8 * sum(out.size for out in outputs) > CACHES
+        ends = (1 << len(outputs)) - 1 - kept
         arguments = (begin, walk, shared, own, fixed, hold, outputs, (count, width, large))
-        constants = (
-            ("STATES", len(outputs)), ("FIXED", len(fixed)), ("PATTERN", _bits(owned)),
-            ("KEPT", _bits(kept)), ("ENDS", _bits([not keeps for keeps in kept])),
-        )  # fmt: skip
+        constants = (("STATES", len(outputs)), ("FIXED", len(fixed)), ("PATTERN", _bits(owned)), ("KEPT", kept),
+                     ("ENDS", ends))  # fmt: skip
         self.loop("scan", arguments, count * width, width, constants)
 
     def walk(self, begin, inputs, outputs, size):
