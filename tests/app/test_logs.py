@@ -189,9 +189,10 @@ def test_parquet_by_pyarrow(tmp_path):
 
 def test_a_table_by_others_is_read_as_csv_is(tmp_path):
     pyarrow = pytest.importorskip("pyarrow")
+    parquet = pytest.importorskip("pyarrow.parquet")
     path = tmp_path / "theirs.parquet"
     columns = {"s": [0, 1, 2], "name": ["a", "b", "c"], "x": [0.5, None, 1.5]}
-    pyarrow.parquet.write_table(pyarrow.table(columns), path)
+    parquet.write_table(pyarrow.table(columns), path)
     run = read_log(path, index="s", kind=Kind(states=("x",)))
     assert list(run.columns) == ["s", "x"]
     assert run.status is RunStatus.DIVERGED

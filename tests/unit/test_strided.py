@@ -30,6 +30,7 @@ LAYOUTS = {
     "two axes that do not meet": lambda n: [numbers((2, 2 * n, 2))[:, :n, k] for k in (0, 1)],
     "upright": lambda n: [numbers((n, 2)).T, numbers((n, 2), 1).T],
     "spread over an axis": lambda n: [numbers((n, 2))[:, 0], numbers((3, 1), 1)],
+    "broadcast": lambda n: np.broadcast_arrays(numbers(n), numbers(n, 1)),
     "read-only": lambda n: [_fixed(numbers((n, 2)))[:, k] for k in (0, 1)],
 }
 

@@ -33,7 +33,7 @@ def column(array, shape, rows):
     layout = array.flags
     if array.shape == shape and layout.aligned:
         if layout.c_contiguous:
-            return array if array.ndim == 1 and not layout.writeable else read_only(array), 1
+            return read_only(array), 1
         if step := even_step(array):
             return read_only(array[(slice(1),) * array.ndim]), step
     if array.size and not any(s for s, n in zip(array.strides, array.shape, strict=True) if n > 1):
