@@ -204,7 +204,7 @@ class Closed:
         """The closed form's own angles; on the way the goal comes to own its targets."""
         goal, links = self._goal, self._links
         table: np.ndarray = memory.empty((4, len(self._x)))
-        axis = goal.tolerance if links.inner <= goal.tolerance else -1.0
+        axis = goal.tolerance * goal.tolerance if links.inner <= goal.tolerance else -1.0
         _two_link_row.into(tuple(table), self._x, self._y, links.l1, links.l2, elbow, axis)
         if not goal.owned:
             goal.x, goal.y, goal.owned = table[0], table[1], True

@@ -58,29 +58,28 @@ def prismatic_column_rate(angle, rate):
     return -rate * s, rate * c
 
 
-def elbow_squares(r, l1, l2):
-    """Squares of the legs about the angle |q2|/2, a^2 = (L - r)(L + r) and b^2 = (r - D)(r + D), and a b.
+def elbow_squares(square, l1, l2):
+    """Squares of the legs about the angle |q2|/2, a^2 = L^2 - r^2 and b^2 = r^2 - D^2, and a b, from r^2.
 
     L = l1 + l2 and D = l1 - l2. Beyond the reach and inside the hole a b is 0: q2 is 0 or pi there, so that a radius
     of more than 2 L is as good as 2 L, whose square is finite.
     """
     outer, inner = l1 + l2, l1 - l2
-    near = minimum(r, 2.0 * outer)
-    opposite, adjacent = (outer - near) * (outer + near), (near - inner) * (near + inner)
+    near = minimum(square, 4.0 * (outer * outer))
+    opposite, adjacent = outer * outer - near, near - inner * inner
     return opposite, adjacent, sqrt(opposite * adjacent)
 
 
 def two_link_triangle(x, y, l1, l2):
-    """Radius r, 2 l1 times the second link's reach along and across the first, r^2 + l1^2 - l2^2 and a b, and |q2|.
+    """r^2, 2 l1 times the second link's reach along and across the first, r^2 + l1^2 - l2^2 and a b, and |q2|.
 
     Beyond the reach only the sign of the reach along the first link counts, and r^2 is held to the outer ring's.
     """
     outer = l1 + l2
     square = x * x + y * y
-    r = sqrt(square)
-    opposite, adjacent, across = elbow_squares(r, l1, l2)
+    opposite, adjacent, across = elbow_squares(square, l1, l2)
     along = minimum(square, outer * outer) + (l1 - l2) * outer
-    return r, along, across, atan2(2.0 * across, adjacent - opposite)
+    return square, along, across, atan2(2.0 * across, adjacent - opposite)
 
 
 def first_direction(x, y, k1, k2):
@@ -103,23 +102,25 @@ def two_link_inverse(x, y, l1, l2, elbow):
 
 def two_link_turns(x, y, elbow, l1, l2, inner, tolerance, rest):
     """The two-link inverse with the first link at ``rest`` where it is free: the target is on its axis, and reached."""
-    r, k1, k2, bend = two_link_triangle(x, y, l1, l2)
+    square, k1, k2, bend = two_link_triangle(x, y, l1, l2)
+    r = sqrt(square)
     free = (r == 0.0) | ((r <= tolerance) & (inner - r <= tolerance))
     return where(free, rest, first_direction(x, y, k1, elbow * k2)), elbow * bend
 
 
 def two_link_both(x, y, l1, l2, inner, outer, tolerance):
     """Both branches (q1 of the elbow +1, q1 of -1, |q2|), and the two-link reach: gap, how the target stands."""
-    r, k1, k2, bend = two_link_triangle(x, y, l1, l2)
+    square, k1, k2, bend = two_link_triangle(x, y, l1, l2)
+    r = sqrt(square)
     free = (r <= tolerance) & (inner - r <= tolerance)
     up, down = first_direction(x, y, k1, k2), first_direction(x, y, k1, -k2)
     return where(free, 0.0, up), where(free, 0.0, down), bend, *two_link_reach(x, y, inner, outer, tolerance)
 
 
 def two_link_row(x, y, l1, l2, elbow, axis):
-    """The target and its two-link inverse: x, y, q1, q2; q1 is 0 within the radius ``axis``, where it is free."""
-    r, k1, k2, bend = two_link_triangle(x, y, l1, l2)
-    return x, y, where(r <= axis, 0.0, first_direction(x, y, k1, elbow * k2)), elbow * bend
+    """The target and its two-link inverse: x, y, q1, q2; q1 is 0 where r^2 is no more than ``axis``: it is free there."""
+    square, k1, k2, bend = two_link_triangle(x, y, l1, l2)
+    return x, y, where(square <= axis, 0.0, first_direction(x, y, k1, elbow * k2)), elbow * bend
 
 
 def two_link_reach(x, y, inner, outer, tolerance):
@@ -131,7 +132,7 @@ def two_link_reach(x, y, inner, outer, tolerance):
 
 def elbow_sine(x, y, l1, l2):
     """|sin q2| = a b/(2 l1 l2) of the two-link inverse: 0 where its branches meet."""
-    _, _, across = elbow_squares(sqrt(x * x + y * y), l1, l2)
+    _, _, across = elbow_squares(x * x + y * y, l1, l2)
     return across / (2.0 * l1 * l2)
 
 

@@ -11,10 +11,9 @@ The frames are base and tool, each (x, y, direction).
 
 from __future__ import annotations
 
-import numpy as np
 from numba import prange
 
-from coplanar.engine.compiled.columns import WIDTH, get, put, some
+from coplanar.engine.compiled.columns import WIDTH, align_stack, get, put, some, table_of
 
 
 def load(q, into, start, rows, n):
@@ -26,6 +25,7 @@ def load(q, into, start, rows, n):
 
 def fold(q, joints, frames, place, rows):
     """Places of a block of rows; a row whose angles are too large for the fast sine is folded again, safely."""
+    align_stack()
     n = len(joints)
     x, y, angle = frames[0, 0], frames[0, 1], frames[0, 2]
     for i in range(rows):
@@ -49,6 +49,7 @@ def fold(q, joints, frames, place, rows):
 
 def mount(frames, place, n, rows):
     """The tool, on the last link's end."""
+    align_stack()
     tx, ty, turned = frames[1, 0], frames[1, 1], frames[1, 2]
     if tx == 0.0 and ty == 0.0:
         for i in range(rows):
@@ -73,6 +74,7 @@ def fold_row(q, joints, frames, place, i):
 
 def columns(place, joints, ends, out, first, rows):
     """(dx/dq, dy/dq) of every joint, one after the other, from the column ``first`` on."""
+    align_stack()
     for k in range(len(joints)):
         end, to = 3 * ends[k], first + 2 * k
         if joints[k, 1] != 0.0:
@@ -89,7 +91,7 @@ def columns(place, joints, ends, out, first, rows):
 def chain_block(q, joints, ends, frames, pose, points, jacobian, start, rows):
     """One block of rows: what is wanted has room of its own, what is not has none."""
     n = len(joints)
-    values, place = np.empty((n, WIDTH)), np.empty((3 * n + 6, WIDTH))
+    values, place = table_of(n), table_of(3 * n + 6)
     load(q, values, start, rows, n)
     fold(values, joints, frames, place, rows)
     if pose.size:
@@ -105,7 +107,7 @@ def chain_block(q, joints, ends, frames, pose, points, jacobian, start, rows):
 def chain_columns(place, joints, ends, jacobian, start, rows):
     """The columns into the rows of the Jacobian, two or three."""
     n = len(joints)
-    slopes = np.empty((2 * n, WIDTH))
+    slopes = table_of(2 * n)
     columns(place, joints, ends, slopes, 0, rows)
     for k in range(n):
         for i in range(rows):

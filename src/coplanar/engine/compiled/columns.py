@@ -6,12 +6,24 @@ law: by Numba's usual means each would be compiled entry by entry, and that woul
 
 from __future__ import annotations
 
+import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
-from numba.extending import intrinsic
+from numba.extending import intrinsic, register_jitable
 
 WIDTH = 264  # rows of a table: 64 columns of them are 128 KiB, which the second-level cache holds
+
+
+LINE = 8  # numbers in a line of the cache
+
+
+@register_jitable
+def table_of(columns):
+    """A table of so many columns with no values yet, each of them whole lines of the cache."""
+    whole = np.empty(columns * WIDTH + LINE - 1)
+    first = -(whole.ctypes.data >> 3) & (LINE - 1)
+    return whole[first : first + columns * WIDTH].reshape((columns, WIDTH))
 
 
 def _pointer(context, builder, kind, column, place):
@@ -33,6 +45,18 @@ def _read(context, builder, kinds, columns, places):
         pointer = _pointer(context, builder, kind, builder.extract_value(columns, k), place)
         values.append(context.unpack_value(builder, kind.dtype, pointer))
     return values
+
+
+@intrinsic
+def align_stack(typing):
+    """Have the function's stack begin at a whole line of the cache, so that no vector kept there lies across two."""
+
+    def generate(context, builder, signature, arguments):
+        builder.function.attributes.alignstack = 64
+        builder.function.attributes.add("noinline")
+        return context.get_dummy_value()
+
+    return types.void(), generate
 
 
 @intrinsic

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numba import prange
 
-from coplanar.engine.compiled.columns import lines, scatter, sum_of, take
+from coplanar.engine.compiled.columns import align_stack, lines, scatter, sum_of, take
 from coplanar.engine.compiled.door import numbers
 
 BLOCK = 4096  # rows; a block of ten float64 columns is 320 KiB, which the second-level cache holds
@@ -39,6 +39,7 @@ def lay_out(ins, steps, room, start, rows):
 
 def block(ins, steps, outs, start, rows):
     """One block of rows: fast law for all, then the safe law for those that came out as NaN."""
+    align_stack()
     apart = 0
     for k in range(len(steps)):
         apart += 1 if steps[k] > 1 else 0

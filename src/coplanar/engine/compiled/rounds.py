@@ -17,7 +17,7 @@ import numpy as np
 from numba import prange
 
 from coplanar.engine import gauss
-from coplanar.engine.compiled.columns import WIDTH, get, pick, put, scatter, some, sum_of
+from coplanar.engine.compiled.columns import WIDTH, align_stack, get, pick, put, scatter, some, sum_of, table_of
 from coplanar.engine.compiled.door import numbers
 from coplanar.engine.compiled.primitives import add_terms, scaled_terms
 
@@ -99,6 +99,7 @@ def integrals(table, place, rows):
 
 def judge(table, rows):
     """The next state of every row. Returns how many go on."""
+    align_stack()
     total = ROW + SPAN + SUMS  # noqa: F821
     for i in range(rows):
         answer = improve(*some(table, 0, i, ROW), *some(table, total, i, SUMS))  # noqa: F821
@@ -128,7 +129,8 @@ def leave(table, settled, which, rows):
 
 def rounds_block(ins, steps, outs, most, start, rows):
     """One block of rows from its beginning to the answers."""
-    table, settled = np.empty((ROW + 1 + SPAN + 2 * SUMS, WIDTH)), np.empty((1 + ROW, WIDTH))  # noqa: F821
+    align_stack()
+    table, settled = table_of(ROW + 1 + SPAN + 2 * SUMS), table_of(1 + ROW)  # noqa: F821
     which, place = np.arange(WIDTH), np.empty(WIDTH, np.int64)
     for i in range(rows):
         put(table, 0, i, begin(*pick(ins, steps, start + i)))  # noqa: F821

@@ -11,7 +11,7 @@ import numpy as np
 from numba import prange
 
 from coplanar.engine.compiled.chains import FOLD
-from coplanar.engine.compiled.columns import WIDTH, get, put, some
+from coplanar.engine.compiled.columns import WIDTH, align_stack, get, put, some, table_of
 
 OPEN, CONVERGED, STALLED, NOT_FINITE = 0, 1, 2, 3  # how a row stands; one that is open at the end has spent its budget
 
@@ -171,10 +171,11 @@ def begin(q, aims, joints, ends, frames, bounds, settings, state, place, square,
 
 def search_block(q, aims, joints, ends, frames, bounds, settings, budget, outputs, start, rows):
     """One block of targets from the first guess to the end."""
+    align_stack()
     n = len(joints)
     tolerance, small, longest, weight = settings[0], settings[1], settings[3], settings[4]
-    state, place, trial = np.empty((3 * n + 7, WIDTH)), np.empty((3 * n + 6, WIDTH)), np.empty((n, WIDTH))
-    slopes, matrix, model = np.empty((3 * n, WIDTH)), np.empty((6, WIDTH)), np.empty((3, WIDTH))
+    state, place, trial = table_of(3 * n + 7), table_of(3 * n + 6), table_of(n)
+    slopes, matrix, model = table_of(3 * n), table_of(6), table_of(3)
     square, expected, now, taken = np.empty(WIDTH), np.ones(WIDTH), np.empty(WIDTH), np.empty(WIDTH)
     which, codes = np.arange(WIDTH), np.empty(WIDTH, np.int64)
     begin(q, aims, joints, ends, frames, bounds, settings, state, place, square, codes, start, rows)

@@ -12,7 +12,7 @@ import numpy as np
 from numba import prange
 
 from coplanar.engine.compiled import walks
-from coplanar.engine.compiled.columns import WIDTH, gather, row, scatter
+from coplanar.engine.compiled.columns import gather, row, scatter, table_of
 from coplanar.engine.compiled.walks import LONG, TILE
 
 PIECE = 8  # tiles that a thread takes at a time
@@ -20,7 +20,7 @@ PIECE = 8  # tiles that a thread takes at a time
 
 def piece_turns(ins, strides, paces, steps, which, piece, start):
     """How far each tile of a piece turns."""
-    table, poses = np.empty((3 * LONG, WIDTH)), np.zeros((4, 1))
+    table, poses = table_of(3 * LONG), np.zeros((4, 1))
     for t in range(piece * PIECE, min((piece + 1) * PIECE, start.shape[1])):
         first = t * TILE
         turns(table, poses, ins, strides, paces, which, first, 1, min(TILE, steps - first))  # noqa: F821
@@ -29,7 +29,7 @@ def piece_turns(ins, strides, paces, steps, which, piece, start):
 
 def piece_ways(ins, strides, paces, outs, size, which, piece, start):
     """The tiles of a piece from the headings where they start; their ways are left in place of where they start."""
-    table, poses = np.empty((3 * LONG, WIDTH)), np.empty((4, 1))
+    table, poses = table_of(3 * LONG), np.empty((4, 1))
     for t in range(piece * PIECE, min((piece + 1) * PIECE, start.shape[1])):
         first = t * TILE
         poses[0, 0], poses[2, 0], poses[3, 0] = start[2, t], 0.0, 0.0

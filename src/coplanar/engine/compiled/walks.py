@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 from numba import prange
 
-from coplanar.engine.compiled.columns import WIDTH, claim, fetch, gather, get, put, reach, scatter
+from coplanar.engine.compiled.columns import WIDTH, align_stack, claim, fetch, gather, get, put, reach, scatter, table_of
 from coplanar.engine.compiled.lanes import LANES, sums, sums_into
 
 LONG = 4  # columns of a table that make one of a tile: the longer the tile, the less often its loops begin
@@ -62,6 +62,7 @@ def turned(table, poses, rows, count):
 
 def turns(table, poses, ins, strides, paces, row, first, rows, count):
     """Headings before the steps of a tile; where the fast law says NaN, by the safe one."""
+    align_stack()
     for i in range(rows * count):
         put(table, TURN, i, law(0.0, 0.0, 0.0, *reach(ins, strides, paces, row, first, i))[2])  # noqa: F821
     total = turned(table, poses, rows, count)
@@ -77,6 +78,7 @@ def ways(table, ins, strides, paces, outs, there, row, first, count):
     While the law keeps the processor busy, memory is told what comes next: the places of this tile, the inputs of the
     next. A last block that is not full begins earlier and does some entries again.
     """
+    align_stack()
     doubtful, block = 0, min(BLOCK, count)
     for begin in range(0, count, BLOCK):
         for k in range(begin, begin + BLOCK, LANES):
@@ -131,7 +133,7 @@ def walk_rows(table, poses, begin, hold, ins, strides, paces, outs, size, row, r
 def walk_share(begin, hold, ins, strides, paces, outs, size, group, groups):
     """Some groups of rows, one after another."""
     rows, many = size[0], size[2]
-    table, poses = np.empty((3 * LONG, WIDTH)), np.empty((4, TILE))  # heading, turn in the tile, x, y
+    table, poses = table_of(3 * LONG), np.empty((4, TILE))  # heading, turn in the tile, x, y
     for row in range(group * many, min(rows, (group + groups) * many), many):
         walk_rows(table, poses, begin, hold, ins, strides, paces, outs, size, row, min(many, rows - row))
 
