@@ -118,7 +118,7 @@ def two_link_both(x, y, l1, l2, inner, outer, tolerance):
 
 
 def two_link_row(x, y, l1, l2, elbow, axis):
-    """The target and its two-link inverse: x, y, q1, q2; q1 is 0 where r^2 is no more than ``axis``: it is free there."""
+    """The target and its two-link inverse: x, y, q1, q2; q1, free where r^2 <= ``axis``, is 0 there."""
     square, k1, k2, bend = two_link_triangle(x, y, l1, l2)
     return x, y, where(square <= axis, 0.0, first_direction(x, y, k1, elbow * k2)), elbow * bend
 

@@ -12,6 +12,8 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic, register_jitable
 
+from coplanar.engine.compiled.abreast import sum_in_pairs
+
 WIDTH = 264  # rows of a table: 64 columns of them are 128 KiB, which the second-level cache holds
 
 
@@ -26,23 +28,16 @@ def table_of(columns):
     return whole[first : first + columns * WIDTH].reshape((columns, WIDTH))
 
 
-def _pointer(context, builder, kind, column, place):
+def pointer_to(context, builder, kind, column, place):
+    """Where an entry of a column is."""
     array = context.make_array(kind)(context, builder, column)
     return cgutils.get_item_pointer(context, builder, kind, array, [place], wraparound=False)
-
-
-def sum_in_pairs(builder, values):
-    """Their sum, pair by pair: the fewer additions wait for one another, the sooner it is there."""
-    while len(values) > 1:
-        pairs = zip(values[::2], values[1::2], strict=False)
-        values = [builder.fadd(a, b) for a, b in pairs] + values[len(values) - len(values) % 2 :]
-    return values[0]
 
 
 def _read(context, builder, kinds, columns, places):
     values = []
     for k, (kind, place) in enumerate(zip(kinds, places, strict=True)):
-        pointer = _pointer(context, builder, kind, builder.extract_value(columns, k), place)
+        pointer = pointer_to(context, builder, kind, builder.extract_value(columns, k), place)
         values.append(context.unpack_value(builder, kind.dtype, pointer))
     return values
 
@@ -70,46 +65,6 @@ def row(typing, columns, start, i):
         return context.make_tuple(builder, signature.return_type, values)
 
     return answer(columns, types.intp, types.intp), generate
-
-
-@intrinsic
-def lines(typing, columns, steps, room, start):
-    """Where the rows from ``start`` on begin in each column, one after another: a tuple of pointers.
-
-    Columns of step 1 are read where they are, numbers (step 0) where they were spread; others are laid out in the room.
-    """
-    answer = types.Tuple([types.CPointer(column.dtype) for column in columns])
-
-    def generate(context, builder, signature, arguments):
-        table, walk, space, begin = arguments
-        zero, one = (begin.type(number) for number in (0, 1))
-        shelf = context.make_array(signature.args[2])(context, builder, space)
-        slot, pointers = zero, []
-        for k, kind in enumerate(signature.args[0]):
-            step = builder.extract_value(walk, k)
-            there = _pointer(context, builder, kind, builder.extract_value(table, k), builder.mul(begin, step))
-            laid = cgutils.get_item_pointer(context, builder, signature.args[2], shelf, [slot, zero], wraparound=False)
-            apart = builder.icmp_unsigned(">", step, one)
-            pointers.append(builder.select(apart, laid, there))
-            slot = builder.add(slot, builder.zext(apart, slot.type))
-        return context.make_tuple(builder, signature.return_type, pointers)
-
-    return answer(columns, steps, room, types.intp), generate
-
-
-@intrinsic
-def take(typing, lines, i):
-    """Entry ``i`` of every line, as a tuple."""
-    answer = types.Tuple([line.dtype for line in lines])
-
-    def generate(context, builder, signature, arguments):
-        given, place = arguments
-        pointers = [builder.extract_value(given, k) for k in range(len(lines))]
-        return context.make_tuple(
-            builder, signature.return_type, [builder.load(builder.gep(p, [place])) for p in pointers]
-        )
-
-    return answer(lines, types.intp), generate
 
 
 @intrinsic
@@ -192,7 +147,7 @@ def _ask(context, builder, kinds, columns, places, writing):
     kind = ir.FunctionType(ir.VoidType(), [address, number, number, number])
     ask = builder.module.declare_intrinsic("llvm.prefetch", [address], kind)
     for k, (column, place) in enumerate(zip(kinds, places, strict=True)):
-        pointer = _pointer(context, builder, column, builder.extract_value(columns, k), place)
+        pointer = pointer_to(context, builder, column, builder.extract_value(columns, k), place)
         builder.call(ask, [builder.bitcast(pointer, address), number(writing), number(3), number(1)])
 
 
@@ -226,7 +181,7 @@ def scatter(typing, columns, start, i, row):
         for k, (kind, given) in enumerate(zip(signature.args[0], kinds, strict=True)):
             value = builder.extract_value(answer, k) if isinstance(row, types.BaseTuple) else answer
             value = context.cast(builder, value, given, kind.dtype)
-            pointer = _pointer(context, builder, kind, builder.extract_value(table, k), place)
+            pointer = pointer_to(context, builder, kind, builder.extract_value(table, k), place)
             context.pack_value(builder, kind.dtype, value, pointer)
             written.append(value)
         return sum_in_pairs(builder, written)

@@ -95,14 +95,17 @@ class Loops:
                 parallel=loop.endswith("parallel"),
             )  # fmt: skip
 
-    def fill(self, kind, inputs, columns, shape, *, more=(), work=1, constants=()):
+    def fill(self, kind, inputs, columns, shape, *, more=(), work=1, constants=(), pairs=False):
         """Run a loop over the rows of inputs that broadcast to the shape of the flat output columns.
 
-        Inputs that do not lie as the loop reads them are laid out, a part at a time.
+        Inputs that do not lie as the loop reads them are laid out, a part at a time. A loop for which it matters has a
+        constant PAIRS that tells which inputs are every other entry of an array.
         """
         rows = math.prod(shape)
         ready = [layout.column(a, shape, rows) for a in inputs]
         ins, steps = zip(*ready, strict=True)
+        if pairs:
+            constants = (*constants, ("PAIRS", _bits(step == 2 for step in steps)))
         if None not in steps:
             self.loop(kind, (ins, steps, columns, rows, *more), work * rows, rows, constants)
             return
@@ -198,7 +201,8 @@ class Kernel(Loops):
             shape: The common shape.
         """
         constants = (("SINGLE", True),) if inputs[0].dtype == np.float32 else ()
-        self.fill("rows", inputs, tuple([o.reshape(-1) for o in outputs]), shape, constants=constants)
+        self.fill("rows", inputs, tuple([o.reshape(-1) for o in outputs]), shape, constants=constants,
+                  pairs=True)  # fmt: skip
 
 
 def _bits(flags):

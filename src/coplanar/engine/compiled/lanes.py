@@ -10,7 +10,7 @@ from llvmlite import ir
 from numba import types
 from numba.extending import intrinsic
 
-from coplanar.engine.compiled.columns import _entry, _pointer
+from coplanar.engine.compiled.columns import _entry, pointer_to
 
 LANES = 8  # numbers in the widest vectors, and in a line of the caches
 _VECTOR, _LANE = ir.VectorType(ir.DoubleType(), LANES), ir.IntType(32)
@@ -34,7 +34,7 @@ def sums_into(typing, columns, start, table, column, i, total, begin):
     def generate(context, builder, signature, arguments):
         place = builder.add(arguments[1], arguments[4])
         column = builder.extract_value(arguments[0], 0)
-        target = _pointer(context, builder, signature.args[0][0], column, place)
+        target = pointer_to(context, builder, signature.args[0][0], column, place)
         source = _entry(context, builder, arguments[2:], signature.args[2], 0)
         return _running(builder, source, target, *arguments[5:])
 

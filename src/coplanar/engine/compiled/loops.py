@@ -1,9 +1,10 @@
 """The loops over rows: one text for every law, whatever it takes and returns.
 
 Arrays come in tuples. Each input walks through memory by its own step: 1 for a full array, 0 for a scalar that was
-spread over one block, more for the column of a table. So a law has one compiled loop however the arrays of a call lie.
-``law`` and ``safe_law`` are names that ``coplanar.engine.compiled.kernels`` supplies; the bodies below are templates
-and never run as they stand.
+spread over one block, more for the column of a table. So a law has one compiled loop however the arrays of a call lie,
+and one more where points are among them: bit k of PAIRS says that input k has step 2, and is read where it lies.
+``law``, ``safe_law`` and PAIRS are names that ``coplanar.engine.compiled.kernels`` supplies; the bodies below are
+templates and never run as they stand.
 """
 
 from __future__ import annotations
@@ -11,28 +12,25 @@ from __future__ import annotations
 import numpy as np
 from numba import prange
 
-from coplanar.engine.compiled.columns import align_stack, lines, scatter, sum_of, take
+from coplanar.engine.compiled.columns import align_stack, scatter, sum_of
 from coplanar.engine.compiled.door import numbers
+from coplanar.engine.compiled.lines import each, lines, take
 
 BLOCK = 4096  # rows; a block of ten float64 columns is 320 KiB, which the second-level cache holds
 ROOM = BLOCK + 24  # columns whose addresses end alike would meet in the cache
 
 
 def every(column, step, line, start, rows):
-    """Every ``step``-th entry of a column, one after another; indices that are known not to wrap make vector code."""
-    if step == 2:  # of points: a constant step, which makes vector code too
-        for i in range(rows):
-            line[i] = column[2 * (start + i)]
-    else:
-        for i in range(rows):
-            line[i] = column[step * (start + i)]
+    """Every ``step``-th entry of a column, one after another."""
+    for i in range(rows):
+        line[i] = column[step * (start + i)]
 
 
 def lay_out(ins, steps, room, start, rows):
     """The rows of the columns that lie apart in memory, one after another in the room."""
     slot = 0
     for k in range(len(ins)):
-        if steps[k] > 1:
+        if steps[k] > 1 and not PAIRS >> k & 1:  # noqa: F821
             every(ins[k], steps[k], room[slot], start, rows)
             slot += 1
 
@@ -42,20 +40,16 @@ def block(ins, steps, outs, start, rows):
     align_stack()
     apart = 0
     for k in range(len(steps)):
-        apart += 1 if steps[k] > 1 else 0
+        apart += 1 if steps[k] > 1 and not PAIRS >> k & 1 else 0  # noqa: F821
     room = np.empty((apart + 1, ROOM if apart else 1), ins[0].dtype)
     if apart:
         lay_out(ins, steps, room, start, rows)
-    here = lines(ins, steps, room, start)
-    doubtful = 0
-    for i in range(rows):
-        check = scatter(outs, start, i, law(*take(here, i)))  # noqa: F821
-        doubtful += 0 if check == check else 1  # NaN is what does not equal itself
-    if doubtful:
+    here = lines(ins, steps, room, start, PAIRS)  # noqa: F821
+    if each(law, here, outs, start, rows, PAIRS):  # noqa: F821
         for i in range(rows):
             check = sum_of(outs, start, i)
-            if check != check:
-                scatter(outs, start, i, safe_law(*take(here, i)))  # noqa: F821
+            if check != check:  # NaN is what does not equal itself
+                scatter(outs, start, i, safe_law(*take(here, i, PAIRS)))  # noqa: F821
 
 
 def rows_one(inputs):

@@ -1,9 +1,8 @@
 """A sweep: one step of a law over a block of rows whose state stays in the first-level cache.
 
 A step is a chain of operations that wait for one another, a hundred cycles long, and a processor looks ahead over no
-more than two or three of them. So several vectors of rows are worked on side by side, instruction by instruction. The
-compiler does that if it is told to and if it sees that nothing written is read by another row: hence columns on the
-stack, each apart from all others, and a loop of our own that can carry the advice.
+more than two or three of them. So several vectors of rows are worked on side by side. The compiler does that if it sees
+that nothing written is read by another row: hence columns on the stack, each apart from all others.
 """
 
 from __future__ import annotations
@@ -13,12 +12,12 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from coplanar.engine.compiled.columns import WIDTH, sum_in_pairs
+from coplanar.engine.compiled.abreast import abreast, is_nan
+from coplanar.engine.compiled.columns import LINE, WIDTH, pointer_to
 
-SIDE_BY_SIDE = 4  # vectors
+STEPS = 4  # vectors of a law that steps, side by side
 TOGETHER = 32  # rows of so many of the widest vectors: whole ones leave no rest, which would be done one by one
 MOST_ROWS = 256  # of a block: as many whole ones as a column holds
-LINE = 8  # numbers in a line of the cache
 
 _NUMBER, _PLACE = ir.DoubleType(), ir.IntType(64)
 
@@ -68,7 +67,7 @@ def shows_nan(typing, columns, i):
     """Whether a number of row ``i`` is NaN (or infinities cancel)."""
 
     def generate(context, builder, signature, arguments):
-        return _is_nan(builder, [builder.load(place) for place in _places(builder, *arguments)])
+        return is_nan(builder, [builder.load(place) for place in _places(builder, *arguments)])
 
     return types.boolean(columns, types.intp), generate
 
@@ -86,19 +85,13 @@ def sweep(typing, law, state, shared, own, start, parameters, rows, pattern):
     def generate(context, builder, signature, arguments):
         _, columns, numbers, tables, begin, constants, count, _ = arguments
         step = context.get_function(law, called)
-        shown = cgutils.alloca_once(builder, _PLACE)
-        builder.store(_PLACE(0), shown)
-        with cgutils.for_range(builder, count) as loop:
-            places = _places(builder, columns, loop.index)
+        with abreast(builder, count, STEPS) as (index, show):
+            places = _places(builder, columns, index)
             given = {False: iter(cgutils.unpack_tuple(builder, numbers)),
-                     True: iter(_row(context, builder, own, tables, builder.add(begin, loop.index)))}  # fmt: skip
-            held = [builder.load(place) for place in _places(builder, constants, loop.index)]
+                     True: iter(_row(context, builder, own, tables, builder.add(begin, index)))}  # fmt: skip
+            held = [builder.load(place) for place in _places(builder, constants, index)]
             now = step(builder, [*map(builder.load, places), *(next(given[bit]) for bit in bits), *held])
-            written = _write(context, builder, places, cgutils.unpack_tuple(builder, now), called.return_type)
-            doubt = builder.zext(_is_nan(builder, written), _PLACE)
-            builder.store(builder.add(builder.load(shown), doubt), shown)
-            last = builder.block
-        _advise(last.terminator)
+            shown = show(_write(context, builder, places, cgutils.unpack_tuple(builder, now), called.return_type))
         return builder.load(shown)
 
     return types.intp(law, state, shared, own, types.intp, parameters, types.intp, pattern), generate
@@ -115,7 +108,7 @@ def spill(typing, outs, columns, start, rows, pattern, large):
     def generate(context, builder, signature, arguments):
         targets, sources, place, count, _, past = arguments
         pairs = [
-            (_entry(context, builder, outs[k], builder.extract_value(targets, k), place),
+            (pointer_to(context, builder, outs[k], builder.extract_value(targets, k), place),
              builder.extract_value(sources, k)) for k in chosen
         ]  # fmt: skip
         with builder.if_else(builder.trunc(past, ir.IntType(1))) as (is_large, is_small):
@@ -134,15 +127,10 @@ def _places(builder, columns, index):
     return [builder.gep(column, [index]) for column in cgutils.unpack_tuple(builder, columns)]
 
 
-def _entry(context, builder, kind, column, place):
-    array = context.make_array(kind)(context, builder, column)
-    return cgutils.get_item_pointer(context, builder, kind, array, [place], wraparound=False)
-
-
 def _row(context, builder, kinds, columns, place):
     """The numbers at a place of arrays."""
     arrays = zip(kinds, cgutils.unpack_tuple(builder, columns), strict=True)
-    return [builder.load(_entry(context, builder, kind, column, place)) for kind, column in arrays]
+    return [builder.load(pointer_to(context, builder, kind, column, place)) for kind, column in arrays]
 
 
 def _write(context, builder, places, values, kinds):
@@ -151,22 +139,6 @@ def _write(context, builder, places, values, kinds):
     for place, number in zip(places, numbers, strict=True):
         builder.store(number, place)
     return numbers
-
-
-def _is_nan(builder, values):
-    """Whether one of the values is (or infinities cancel): sums go by units that the law leaves free."""
-    total = sum_in_pairs(builder, values)
-    return builder.fcmp_unordered("uno", total, total)
-
-
-def _advise(branch):
-    """Tell the compiler at the end of a loop how many vectors to work on side by side."""
-    module = branch.module
-    words = ir.MetaDataString(module, "llvm.loop.interleave.count")
-    advice = module.add_metadata([words, ir.IntType(32)(SIDE_BY_SIDE)])
-    loop = ir.values.MDValue(module, (), name=str(len(module.metadata)))
-    loop.operands = (loop, advice)  # a loop is told from others by naming itself
-    branch.set_metadata("llvm.loop", loop)
 
 
 def _stream(builder, target, source, count):

@@ -15,7 +15,18 @@ from __future__ import annotations
 import numpy as np
 from numba import prange
 
-from coplanar.engine.compiled.columns import WIDTH, align_stack, claim, fetch, gather, get, put, reach, scatter, table_of
+from coplanar.engine.compiled.columns import (
+    WIDTH,
+    align_stack,
+    claim,
+    fetch,
+    gather,
+    get,
+    put,
+    reach,
+    scatter,
+    table_of,
+)
 from coplanar.engine.compiled.lanes import LANES, sums, sums_into
 
 LONG = 4  # columns of a table that make one of a tile: the longer the tile, the less often its loops begin
