@@ -49,9 +49,27 @@ def real(name: str, value: ArrayLike, *, remedy: str = "") -> Real:
     if is_foreign(value):
         return value
     array = _as_float64(name, value, remedy)
-    if not _all_finite(array):
-        raise InvalidValue(name, value, _where("finite numbers", array, np.isfinite(array)), remedy)
+    finite(name, array, remedy=remedy)
     return float(array) if array.ndim == 0 else array
+
+
+def finite(name: str, array: np.ndarray, *, remedy: str = "") -> None:
+    """Refuse NaN and infinity.
+
+    Raises:
+        InvalidValue: With the first entry that is one.
+    """
+    if not _all_finite(array):
+        raise InvalidValue(name, array, _where("finite numbers", array, np.isfinite(array)), remedy)
+
+
+def reals(name: str, value: ArrayLike, *, remedy: str = "") -> Any:
+    """A float64 array, in which NaN and infinity are yet to be looked for by ``finite``; others' arrays as they are.
+
+    Raises:
+        InvalidValue: As ``real``.
+    """
+    return value if is_foreign(value) else _as_float64(name, value, remedy)
 
 
 def plain(*values: Any) -> bool:
@@ -111,7 +129,15 @@ def vector(name: str, value: ArrayLike, length: int | None = None, *, remedy: st
         >>> vector("point", (1, 2), 2).shape
         (2,)
     """
-    checked = value if is_foreign(value) else real(name, value, remedy=remedy)
+    return ending_in(length, name, value if is_foreign(value) else real(name, value, remedy=remedy), remedy=remedy)
+
+
+def ending_in(length: int | None, name: str, checked: Any, *, remedy: str = "") -> Any:
+    """The array if its last axis is so long; any length but 0 when None.
+
+    Raises:
+        InvalidShape: If it is not.
+    """
     shape = np.shape(checked)
     if not shape or (length is not None and shape[-1] != length) or shape[-1] == 0:
         needed = f"shape (..., {'n' if length is None else length})"

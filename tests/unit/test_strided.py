@@ -77,12 +77,15 @@ def test_an_output_over_its_own_table_is_written_after_it_was_read():
     assert np.array_equal(table.T, expected)
 
 
-def test_columns_far_apart_are_no_second_compilation():
+def test_columns_far_apart_are_no_second_compilation_and_points_are_one():
     law = Evaluator(arms.link)
     law.on_compiled(0.0, 0.0, numbers(9), numbers(9))
-    law.on_compiled(0.0, 0.0, numbers((9, 2))[:, 0], numbers((9, 3))[:, 1])
+    law.on_compiled(0.0, 0.0, numbers((9, 4))[:, 0], numbers((9, 3))[:, 1])
     (loop,) = law.kernel()._loops.values()
     assert len(loop.overloads) == 1
+    law.on_compiled(0.0, 0.0, *numbers((9, 2)).T)
+    law.on_compiled(0.0, 0.0, *numbers((20, 2))[2:].T)
+    assert [len(loop.overloads) for loop in law.kernel()._loops.values()] == [1, 1]
 
 
 def test_points_and_targets_are_tables():

@@ -205,9 +205,9 @@ class Closed:
         goal, links = self._goal, self._links
         table: np.ndarray = memory.empty((4, len(self._x)))
         axis = goal.tolerance * goal.tolerance if links.inner <= goal.tolerance else -1.0
-        _two_link_row.into(tuple(table), self._x, self._y, links.l1, links.l2, elbow, axis)
+        numbers = _two_link_row.into(tuple(table), self._x, self._y, links.l1, links.l2, elbow, axis)
         if not goal.owned:
-            goal.x, goal.y, goal.owned = table[0], table[1], True
+            goal.hold(table[0], table[1], finite=numbers)  # joints of what is not finite are NaN
             self._x, self._y = goal.x, goal.y
         return table[2:]
 

@@ -11,11 +11,12 @@ import numpy as np
 from coplanar import checks
 from coplanar.arms.chain import Chain
 from coplanar.checks import Real
-from coplanar.engine import components, memory
+from coplanar.engine import components, is_foreign, memory
 from coplanar.errors import InvalidValue
 from coplanar.se2 import Pose
 
 ELBOWS = (1, -1)  # the order of the branches
+REMEDY = "pass a Pose where the tool's heading matters"
 
 
 @dataclass(slots=True, eq=False)
@@ -30,7 +31,7 @@ class Goal:
         near: A column for every joint, to come nearest to; None where the caller has no wish.
         elbow: Wanted branch; None likewise.
         tolerance: What counts as reached [m].
-        owned: Whether nobody else can change the columns.
+        owned: Whether the columns are finite numbers, and nobody else can change them.
     """
 
     lead: tuple[int, ...]
@@ -44,7 +45,7 @@ class Goal:
 
     @classmethod
     def of(cls, chain: Chain, target: Any, near: Any, elbow: Any, tolerance: float) -> Goal:
-        """Checked, broadcast, in columns; those of positions alone are to be owned before the answer is handed out."""
+        """Broadcast, in columns, checked; those of positions alone are to be owned before the answer is handed out."""
         if type(tolerance) is not float or not 0.0 <= tolerance < math.inf:
             tolerance = checks.not_negative("tolerance", tolerance)
         point = _single(target)
@@ -58,8 +59,7 @@ class Goal:
     @classmethod
     def _general(cls, chain: Chain, target: Any, near: Any, elbow: Any, tolerance: float) -> Goal:
         pose = isinstance(target, Pose)
-        remedy = "pass a Pose where the tool's heading matters"
-        parts = target.parts if pose else components(checks.vector("target", target, 2, remedy=remedy))
+        parts = target.parts if pose else components(_points(target))
         wishes = {"target": sum(parts[1:], parts[0])} if pose else {"target": parts[0]}
         if near is not None:
             near = components(chain.checked_joints("near", near))
@@ -74,6 +74,8 @@ class Goal:
             elbow = None if elbow is None else _columns((elbow,), lead)[0]
             x, y = (part.reshape(-1) for part in parts)
             return cls(lead, x, y, None, None, elbow, tolerance, owned=False)
+        if not pose and not is_foreign(target):
+            checks.finite("target", np.asarray(target, np.float64), remedy=REMEDY)
         x, y, *heading = _columns(parts, lead)
         return cls(
             lead,
@@ -86,10 +88,15 @@ class Goal:
         )
 
     def own(self) -> None:
-        """Have the positions in columns of one memory."""
+        """Have the positions, finite numbers, in columns of one memory."""
         if not self.owned:
-            self.x, self.y = _columns((self.x, self.y), self.x.shape)
-            self.owned = True
+            self.hold(*_columns((self.x, self.y), self.x.shape))
+
+    def hold(self, x: np.ndarray, y: np.ndarray, *, finite: bool = False) -> None:
+        """Take these columns for the positions; they are checked unless it is known that they are finite."""
+        self.x, self.y, self.owned = x, y, True
+        if not finite:
+            checks.finite("target", self.points, remedy=REMEDY)
 
     @property
     def aims(self) -> list[Real]:
@@ -106,6 +113,11 @@ class Goal:
         pick = [None if c is None else np.atleast_1d(c)[which] for c in (self.x, self.y, self.heading, self.elbow)]
         near = None if self.near is None else [np.atleast_1d(c)[which] for c in self.near]
         return Goal((len(which),), pick[0], pick[1], pick[2], near, pick[3], self.tolerance)
+
+
+def _points(target: Any) -> Any:
+    """Positions, of which nobody knows yet whether they are finite."""
+    return checks.ending_in(2, "target", checks.reals("target", target, remedy=REMEDY), remedy=REMEDY)
 
 
 def _single(target: Any) -> Any:

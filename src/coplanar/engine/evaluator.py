@@ -114,13 +114,18 @@ class Evaluator:
             InvalidShape: If the arguments do not broadcast, or ``out`` is not as it should be.
         """
         inputs = _as_arrays(args)
-        shape = self._shape(inputs)
         if out is None:
-            return self._compiled(inputs, shape)
-        _check_out(out, self._facts.results, shape, inputs[0].dtype)
-        self.kernel().run_into(out, inputs, shape)
-        self._ready = True
+            return self._compiled(inputs, self._shape(inputs))
+        self._compiled_into(out, inputs)
         return out if self._facts.many else out[0]
+
+    def _compiled_into(self, out: tuple[np.ndarray, ...], inputs: tuple[np.ndarray, ...]) -> int:
+        """Returns how many rows may show a NaN."""
+        shape = self._shape(inputs)
+        _check_out(out, self._facts.results, shape, inputs[0].dtype)
+        rows: int = self.kernel().run_into(out, inputs, shape)
+        self._ready = True
+        return rows
 
     def _compiled(self, inputs: tuple[np.ndarray, ...], shape: tuple[int, ...]) -> Any:
         outs = tuple([memory.empty(shape, inputs[0].dtype) for _ in range(self._facts.results)])
@@ -128,19 +133,22 @@ class Evaluator:
         self._ready = True
         return outs if self._facts.many else outs[0]
 
-    def into(self, out: tuple[np.ndarray, ...], *args: Any) -> None:
+    def into(self, out: tuple[np.ndarray, ...], *args: Any) -> bool:
         """Evaluate NumPy rows and write them into these arrays: one for each result, of the broadcast shape.
 
         Args:
             out: Float64 arrays.
             *args: Numbers and arrays, not all of them numbers.
+
+        Returns:
+            True only if none of the results is NaN.
         """
         if self._compiles(out[0].size):
-            self.on_compiled(*args, out=out)
-            return
+            return not self._compiled_into(out, _as_arrays(args))
         answer = self.on_text(*args)
         for array, part in zip(out, answer if isinstance(answer, tuple) else (answer,), strict=True):
             array[...] = part
+        return not any(np.isnan(array).any() for array in out)
 
     def _compiles(self, rows: int) -> bool:
         return pays(rows, self._ready, least=self._facts.least)

@@ -47,15 +47,17 @@ class Loops:
         self._parts: dict = {}
 
     def loop(self, kind, arguments, work, rows, constants=()):
-        """Threads where they pay and are free; a forked child never touches the parent's threads."""
+        """Threads where they pay and are free; a forked child never touches the parent's threads.
+
+        Returns what the loop returns.
+        """
         threads_pay = work >= PARALLEL_FROM and rows >= 2 * WIDTH and os.getpid() == _process
         if threads_pay and _threads.acquire(blocking=False):
             try:
-                self._call(kind, f"{kind}_parallel", constants, arguments)
+                return self._call(kind, f"{kind}_parallel", constants, arguments)
             finally:
                 _threads.release()
-        else:
-            self._call(kind, f"{kind}_serial", constants, arguments)
+        return self._call(kind, f"{kind}_serial", constants, arguments)
 
     def one(self, kind, count, more=(), constants=()):
         """The function of a kind for a row of so many Python floats, and arguments of more types.
@@ -70,11 +72,11 @@ class Loops:
 
     def _call(self, kind, loop, constants, arguments):
         try:
-            self._compiled(kind, loop, constants)(*arguments)
+            return self._compiled(kind, loop, constants)(*arguments)
         except OSError:  # the cache folder went away, or is full
             with self._lock:
                 self._loops[loop, constants] = self._compile(kind, loop, constants, cached=False)
-            self._loops[loop, constants](*arguments)
+            return self._loops[loop, constants](*arguments)
 
     def _compiled(self, kind, loop, constants):
         if (loop, constants) not in self._loops:
@@ -100,6 +102,8 @@ class Loops:
 
         Inputs that do not lie as the loop reads them are laid out, a part at a time. A loop for which it matters has a
         constant PAIRS that tells which inputs are every other entry of an array.
+
+        Returns the sum of what the loop returns.
         """
         rows = math.prod(shape)
         ready = [layout.column(a, shape, rows) for a in inputs]
@@ -107,13 +111,12 @@ class Loops:
         if pairs:
             constants = (*constants, ("PAIRS", _bits(step == 2 for step in steps)))
         if None not in steps:
-            self.loop(kind, (ins, steps, columns, rows, *more), work * rows, rows, constants)
-            return
+            return self.loop(kind, (ins, steps, columns, rows, *more), work * rows, rows, constants)
         steps = tuple(1 if step is None else step for step in steps)
         whole = [np.broadcast_to(a, shape) for a in inputs]
         room = [None if column is not None else np.empty(min(rows, SPREAD_ROWS), a.dtype.newbyteorder("="))
                 for (column, _), a in zip(ready, inputs, strict=True)]  # fmt: skip
-        start = 0
+        start = total = 0
         for index in layout.slabs(shape, SPREAD_ROWS):
             count = whole[0][index].size
             stop = start + count
@@ -122,8 +125,9 @@ class Loops:
                 for (column, step), array, space in zip(ready, whole, room, strict=True)
             )
             outs = tuple(c[start:stop] for c in columns)
-            self.loop(kind, (ins, steps, outs, count, *more), work * count, count, constants)
+            total += self.loop(kind, (ins, steps, outs, count, *more), work * count, count, constants)
             start = stop
+        return total
 
 
 class Kernel(Loops):
@@ -184,13 +188,14 @@ class Kernel(Loops):
                   rows * steps, rows * steps if long else WIDTH * rows, constants)  # fmt: skip
 
     def run_into(self, outputs, inputs, shape):
-        """``run`` where the outputs may lie in memory as they like, over the inputs too."""
+        """``run`` where the outputs may lie in memory as they like, over the inputs too; returns the same."""
         fit = [layout.may_be_written(out, inputs) for out in outputs]
         targets = [out if fits else memory.empty(shape, out.dtype) for out, fits in zip(outputs, fit, strict=True)]
-        self.run(inputs, targets, shape)
+        left = self.run(inputs, targets, shape)
         for out, target in zip(outputs, targets, strict=True):
             if out is not target:
                 out[...] = target
+        return left
 
     def run(self, inputs, outputs, shape):
         """Evaluate the law on every row of the broadcast inputs.
@@ -199,10 +204,13 @@ class Kernel(Loops):
             inputs: Arrays of one float type that broadcast to ``shape``.
             outputs: Arrays of ``shape`` and that type, contiguous and apart from the inputs.
             shape: The common shape.
+
+        Returns:
+            How many rows show a NaN (or infinities that cancel).
         """
         constants = (("SINGLE", True),) if inputs[0].dtype == np.float32 else ()
-        self.fill("rows", inputs, tuple([o.reshape(-1) for o in outputs]), shape, constants=constants,
-                  pairs=True)  # fmt: skip
+        return self.fill("rows", inputs, tuple([o.reshape(-1) for o in outputs]), shape, constants=constants,
+                         pairs=True)  # fmt: skip
 
 
 def _bits(flags):

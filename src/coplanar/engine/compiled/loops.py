@@ -36,7 +36,10 @@ def lay_out(ins, steps, room, start, rows):
 
 
 def block(ins, steps, outs, start, rows):
-    """One block of rows: fast law for all, then the safe law for those that came out as NaN."""
+    """One block of rows: fast law for all, then the safe law for those that came out as NaN.
+
+    Returns how many are NaN even so.
+    """
     align_stack()
     apart = 0
     for k in range(len(steps)):
@@ -45,11 +48,14 @@ def block(ins, steps, outs, start, rows):
     if apart:
         lay_out(ins, steps, room, start, rows)
     here = lines(ins, steps, room, start, PAIRS)  # noqa: F821
+    left = 0
     if each(law, here, outs, start, rows, PAIRS):  # noqa: F821
         for i in range(rows):
             check = sum_of(outs, start, i)
             if check != check:  # NaN is what does not equal itself
-                scatter(outs, start, i, safe_law(*take(here, i, PAIRS)))  # noqa: F821
+                check = scatter(outs, start, i, safe_law(*take(here, i, PAIRS)))  # noqa: F821
+                left += 0 if check == check else 1
+    return left
 
 
 def rows_one(inputs):
@@ -58,17 +64,21 @@ def rows_one(inputs):
 
 
 def rows_serial(ins, steps, outs, rows):
-    """All blocks, one after another."""
+    """All blocks, one after another; returns how many rows are NaN."""
+    left = 0
     for b in range((rows + BLOCK - 1) // BLOCK):
         start = b * BLOCK
-        block(ins, steps, outs, start, min(BLOCK, rows - start))
+        left += block(ins, steps, outs, start, min(BLOCK, rows - start))
+    return left
 
 
 def rows_parallel(ins, steps, outs, rows):
-    """All blocks, shared among threads."""
+    """All blocks, shared among threads; returns how many rows are NaN."""
+    left = 0
     for b in prange((rows + BLOCK - 1) // BLOCK):
         start = b * BLOCK
-        block(ins, steps, outs, start, min(BLOCK, rows - start))
+        left += block(ins, steps, outs, start, min(BLOCK, rows - start))
+    return left
 
 
 PARTS = (every, lay_out, block)

@@ -202,17 +202,19 @@ def row_integrals(given):
 
 
 def rounds_serial(ins, steps, outs, rows, most):
-    """All blocks, one after another."""
+    """All blocks, one after another; nothing is counted."""
     for b in range((rows + WIDTH - 1) // WIDTH):
         start = b * WIDTH
         rounds_block(ins, steps, outs, most, start, min(WIDTH, rows - start))
+    return 0
 
 
 def rounds_parallel(ins, steps, outs, rows, most):
-    """All blocks, shared among threads."""
+    """All blocks, shared among threads; nothing is counted."""
     for b in prange((rows + WIDTH - 1) // WIDTH):
         start = b * WIDTH
         rounds_block(ins, steps, outs, most, start, min(WIDTH, rows - start))
+    return 0
 
 
 PARTS = (
