@@ -2,8 +2,8 @@
 
 Angles are counterclockwise from the x axis unless a law says "relative"; every length is positive. The two-link
 inverse works on the half angle, tan^2(q2/2) = a^2/b^2 with a^2 = L^2 - r^2, b^2 = r^2 - D^2, L = l1 + l2, D = l1 - l2,
-in factored form, and tan q2 = 2 a b/(b^2 - a^2): next to the base of an equal-link arm the textbook cosine
-(r^2 - l1^2 - l2^2)/(2 l1 l2) leaves 1e-8 of the links' length in the tip, the factored squares a rounding.
+and tan q2 = 2 a b/(b^2 - a^2): next to the base of an equal-link arm the textbook cosine (r^2 - l1^2 - l2^2)/(2 l1 l2)
+leaves 1e-8 of the links' length in the tip, these squares a rounding.
 
 Sources: Lynch and Park 2017, Modern Robotics, ch. 4-6; Siciliano et al. 2009, Robotics, sec. 2.12 and 3.1-3.5;
 Nakamura and Hanafusa 1986 (damped rates).
@@ -61,12 +61,12 @@ def prismatic_column_rate(angle, rate):
 def elbow_squares(square, l1, l2):
     """Squares of the legs about the angle |q2|/2, a^2 = L^2 - r^2 and b^2 = r^2 - D^2, and a b, from r^2.
 
-    L = l1 + l2 and D = l1 - l2. Beyond the reach and inside the hole a b is 0: q2 is 0 or pi there, so that a radius
+    L = l1 + l2 and D = l1 - l2. Beyond the reach a is 0 and inside the hole b is: q2 is 0 or pi there, so that a radius
     of more than 2 L is as good as 2 L, whose square is finite.
     """
-    outer, inner = l1 + l2, l1 - l2
-    near = minimum(square, 4.0 * (outer * outer))
-    opposite, adjacent = outer * outer - near, near - inner * inner
+    outer, inner = (l1 + l2) * (l1 + l2), (l1 - l2) * (l1 - l2)
+    near = minimum(square, 4.0 * outer)
+    opposite, adjacent = maximum(near, outer) - near, near - minimum(near, inner)
     return opposite, adjacent, sqrt(opposite * adjacent)
 
 
