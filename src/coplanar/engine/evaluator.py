@@ -119,11 +119,11 @@ class Evaluator:
         self._compiled_into(out, inputs)
         return out if self._facts.many else out[0]
 
-    def _compiled_into(self, out: tuple[np.ndarray, ...], inputs: tuple[np.ndarray, ...]) -> int:
-        """Returns how many rows may show a NaN."""
+    def _compiled_into(self, out: tuple[np.ndarray, ...], inputs: tuple[np.ndarray, ...], finite: bool = False) -> int:
+        """Returns in how many rows a NaN shows, or something that is not finite."""
         shape = self._shape(inputs)
         _check_out(out, self._facts.results, shape, inputs[0].dtype)
-        rows: int = self.kernel().run_into(out, inputs, shape)
+        rows: int = self.kernel().run_into(out, inputs, shape, finite=finite)
         self._ready = True
         return rows
 
@@ -133,22 +133,23 @@ class Evaluator:
         self._ready = True
         return outs if self._facts.many else outs[0]
 
-    def into(self, out: tuple[np.ndarray, ...], *args: Any) -> bool:
+    def into(self, out: tuple[np.ndarray, ...], *args: Any, finite: bool = False) -> bool:
         """Evaluate NumPy rows and write them into these arrays: one for each result, of the broadcast shape.
 
         Args:
             out: Float64 arrays.
             *args: Numbers and arrays, not all of them numbers.
+            finite: Whether infinities count as NaN does.
 
         Returns:
-            True only if none of the results is NaN.
+            True if no result is NaN; False perhaps without need where infinities cancel, or finite sums overflow.
         """
         if self._compiles(out[0].size):
-            return not self._compiled_into(out, _as_arrays(args))
+            return not self._compiled_into(out, _as_arrays(args), finite)
         answer = self.on_text(*args)
         for array, part in zip(out, answer if isinstance(answer, tuple) else (answer,), strict=True):
             array[...] = part
-        return not any(np.isnan(array).any() for array in out)
+        return all(np.isfinite(array).all() if finite else not np.isnan(array).any() for array in out)
 
     def _compiles(self, rows: int) -> bool:
         return pays(rows, self._ready, least=self._facts.least)

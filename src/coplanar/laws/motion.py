@@ -125,6 +125,11 @@ def cusp_time(v, a, duration):
     return where((a != 0.0) & (time > 0.0) & (time < duration), time, NEVER)
 
 
+def covered(rate, dt):
+    """Way or turn of a velocity that is held for a time: rate dt."""
+    return rate * dt
+
+
 def wheel_increments(left, right, track):
     """Distance (left + right)/2 and turn (right - left)/track from how far each wheel rolled."""
     return 0.5 * (left + right), (right - left) / track

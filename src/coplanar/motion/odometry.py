@@ -19,6 +19,7 @@ from coplanar.motion.sequence import along, before_last_axis
 from coplanar.se2 import Displacement, Pose
 from coplanar.se2.triple import matrix_of
 
+_covered = evaluator(laws.covered)
 _increment_variances = evaluator(laws.increment_variances)
 _rotate = evaluator(se2.rotate)
 _step = evaluator(se2.step)
@@ -107,7 +108,10 @@ class Odometry:
         """
         times = checks.monotone("t", t)
         dt = np.diff(times)
-        way, turn = (_made(held_samples(n, rate, times.size), dt) for n, rate in (("v", v), ("omega", omega)))
+        way, turn = (
+            _made(name, held_samples(name, rate, times.size, look=False), dt)
+            for name, rate in (("v", v), ("omega", omega))
+        )
         checks.broadcast(v=way, omega=turn)
         return cls(Displacement._of(way, 0.0, turn))
 
@@ -222,11 +226,14 @@ class Odometry:
         return carried(about(path, start), summed_about(path, start, self.increments, Q, P))
 
 
-def _made(rate: Real, dt: np.ndarray) -> Real:
-    """What a rate makes of each time, rate dt, in memory that is used again."""
+def _made(name: str, rate: Real, dt: np.ndarray) -> Real:
+    """What a rate makes of each time; that it is finite is seen on the way."""
     if is_foreign(rate):
         return rate * dt
-    return np.multiply(rate, dt, out=memory.empty(np.broadcast_shapes(np.shape(rate), dt.shape)))
+    made: np.ndarray = memory.empty(np.broadcast_shapes(np.shape(rate), dt.shape))
+    if not _covered.into((made,), rate, dt, finite=True):
+        checks.finite(name, np.asarray(rate))
+    return made
 
 
 def walked(

@@ -6,6 +6,7 @@ hundred of them. The compiler interleaves vectors if it is told to; hence a loop
 
 from __future__ import annotations
 
+import math
 from contextlib import contextmanager
 
 from llvmlite import ir
@@ -16,15 +17,11 @@ _PLACE = ir.IntType(64)
 
 @contextmanager
 def abreast(builder, count, vectors):
-    """The body of a loop over rows: its index, and what counts the rows of whose numbers one is NaN.
-
-    That takes the numbers of the row, and returns where the count is kept.
-    """
+    """The body of a loop over rows: its index, and what counts the rows that show a flag: it returns where."""
     shown = cgutils.alloca_once_value(builder, _PLACE(0))
 
-    def show(values):
-        doubt = builder.zext(is_nan(builder, values), _PLACE)
-        builder.store(builder.add(builder.load(shown), doubt), shown)
+    def show(flag):
+        builder.store(builder.add(builder.load(shown), builder.zext(flag, _PLACE)), shown)
         return shown
 
     with cgutils.for_range(builder, count) as loop:
@@ -37,6 +34,13 @@ def is_nan(builder, values):
     """Whether one of the values is (or infinities cancel): sums go by units that the law leaves free."""
     total = sum_in_pairs(builder, values)
     return builder.fcmp_unordered("uno", total, total)
+
+
+def is_not_finite(builder, values):
+    """Whether one of the values is not, or their sum."""
+    total = sum_in_pairs(builder, values)
+    size = builder.call(builder.module.declare_intrinsic("llvm.fabs", [total.type]), [total])
+    return builder.fcmp_unordered("==", size, ir.Constant(total.type, math.inf))
 
 
 def sum_in_pairs(builder, values):

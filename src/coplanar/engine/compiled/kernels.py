@@ -97,19 +97,14 @@ class Loops:
                 parallel=loop.endswith("parallel"),
             )  # fmt: skip
 
-    def fill(self, kind, inputs, columns, shape, *, more=(), work=1, constants=(), pairs=False):
+    def fill(self, kind, inputs, ready, columns, shape, *, more=(), work=1, constants=()):
         """Run a loop over the rows of inputs that broadcast to the shape of the flat output columns.
 
-        Inputs that do not lie as the loop reads them are laid out, a part at a time. A loop for which it matters has a
-        constant PAIRS that tells which inputs are every other entry of an array.
-
-        Returns the sum of what the loop returns.
+        Inputs that are not ready (see ``layout.columns``) are laid out, a part at a time. Returns the sum of what the
+        loop returns.
         """
         rows = math.prod(shape)
-        ready = [layout.column(a, shape, rows) for a in inputs]
         ins, steps = zip(*ready, strict=True)
-        if pairs:
-            constants = (*constants, ("PAIRS", _bits(step == 2 for step in steps)))
         if None not in steps:
             return self.loop(kind, (ins, steps, columns, rows, *more), work * rows, rows, constants)
         steps = tuple(1 if step is None else step for step in steps)
@@ -187,30 +182,33 @@ class Kernel(Loops):
         self.loop("stretch" if long else "walk", (first, hold, ins, strides, paces, outputs, (*size, group)),
                   rows * steps, rows * steps if long else WIDTH * rows, constants)  # fmt: skip
 
-    def run_into(self, outputs, inputs, shape):
+    def run_into(self, outputs, inputs, shape, *, finite=False):
         """``run`` where the outputs may lie in memory as they like, over the inputs too; returns the same."""
         fit = [layout.may_be_written(out, inputs) for out in outputs]
         targets = [out if fits else memory.empty(shape, out.dtype) for out, fits in zip(outputs, fit, strict=True)]
-        left = self.run(inputs, targets, shape)
+        left = self.run(inputs, targets, shape, finite=finite)
         for out, target in zip(outputs, targets, strict=True):
             if out is not target:
                 out[...] = target
         return left
 
-    def run(self, inputs, outputs, shape):
+    def run(self, inputs, outputs, shape, *, finite=False):
         """Evaluate the law on every row of the broadcast inputs.
 
         Args:
             inputs: Arrays of one float type that broadcast to ``shape``.
             outputs: Arrays of ``shape`` and that type, contiguous and apart from the inputs.
             shape: The common shape.
+            finite: Whether infinities are counted too.
 
         Returns:
             How many rows show a NaN (or infinities that cancel).
         """
+        ready, block = layout.repeated(inputs, layout.columns(inputs, shape), shape)
         constants = (("SINGLE", True),) if inputs[0].dtype == np.float32 else ()
-        return self.fill("rows", inputs, tuple([o.reshape(-1) for o in outputs]), shape, constants=constants,
-                         pairs=True)  # fmt: skip
+        constants = (*constants, ("PAIRS", _bits(step == 2 for _, step in ready)), ("FINITE", finite))
+        columns = tuple([o.reshape(-1) for o in outputs])
+        return self.fill("rows", inputs, ready, columns, shape, more=(block,), constants=constants)
 
 
 def _bits(flags):

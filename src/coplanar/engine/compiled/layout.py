@@ -41,6 +41,45 @@ def column(array, shape, rows):
     return None, None
 
 
+def columns(inputs, shape):
+    """Every input as a column and its step."""
+    rows = math.prod(shape)
+    return [column(a, shape, rows) for a in inputs]
+
+
+def repeated(inputs, ready, shape):
+    """The columns, of which those that repeat themselves have step 0 like a number, and the rows of a block.
+
+    Such an input is laid out for one block. A block is whole periods of all of them, so that each begins with it.
+    """
+    periods = [1 if step is not None else period(a, shape) for a, (_, step) in zip(inputs, ready, strict=True)]
+    common = math.lcm(*periods)
+    if not 1 < common <= loops.BLOCK:
+        return ready, loops.BLOCK
+    block = loops.BLOCK // common * common
+    count = min(block, math.prod(shape))
+    filled = [
+        pair if pair[1] is not None else (read_only(np.resize(a[(0,) * (a.ndim - tail(a, shape))], count)), 0)
+        for pair, a in zip(ready, inputs, strict=True)
+    ]
+    return filled, block
+
+
+def period(array, shape):
+    """After how many rows the entries come again, as one row does for a whole table; 0 if they do not."""
+    axes = tail(array, shape)
+    return math.prod(shape[len(shape) - axes :]) if axes else 0
+
+
+def tail(array, shape):
+    """How many of the last axes the array has in full, if it is the same along all others; else 0."""
+    spread = 0
+    while spread < array.ndim and (array.shape[spread] == 1 or array.strides[spread] == 0):
+        spread += 1
+    axes = array.ndim - spread
+    return axes if array.shape[spread:] == shape[len(shape) - axes :] else 0
+
+
 def even_step(array):
     """How many entries a row lies after the one before, where that is one number of at least 2; else 0."""
     step, rest = divmod(array.strides[-1], array.itemsize)

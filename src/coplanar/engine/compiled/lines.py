@@ -9,7 +9,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from coplanar.engine.compiled.abreast import abreast
+from coplanar.engine.compiled.abreast import abreast, is_nan, is_not_finite
 from coplanar.engine.compiled.columns import pointer_to
 
 SIDE_BY_SIDE = 2  # vectors; of more of them the numbers on the way find no room in the registers
@@ -71,16 +71,17 @@ def taken(builder, lines, place, pairs):
 
 
 @intrinsic(prefer_literal=True)
-def each(typing, law, lines, outs, start, rows, pairs):
-    """``outs = law(*lines)`` on the first rows of the lines, written from ``start`` on; returns how many show a NaN.
+def each(typing, law, lines, outs, start, rows, pairs, finite):
+    """``outs = law(*lines)`` on the first rows of the lines, written from ``start`` on.
 
-    The pattern of pairs is that of ``take``.
+    Returns in how many a NaN shows. The pattern of pairs is that of ``take``. With ``finite`` infinities count too.
     """
     called = law.get_call_type(typing, tuple(line.dtype for line in lines), {})
     kinds = called.return_type.types if isinstance(called.return_type, types.BaseTuple) else (called.return_type,)
 
     def generate(context, builder, signature, arguments):
-        _, given, columns, begin, count, _ = arguments
+        _, given, columns, begin, count, _, _ = arguments
+        is_in_doubt = is_not_finite if finite.literal_value else is_nan
         law_of_row = context.get_function(law, called)
         with abreast(builder, count, SIDE_BY_SIDE) as (index, show):
             answer = law_of_row(builder, taken(builder, given, index, pairs))
@@ -92,7 +93,7 @@ def each(typing, law, lines, outs, start, rows, pairs):
                 written.append(context.cast(builder, value, kind, out.dtype))
                 there = pointer_to(context, builder, out, builder.extract_value(columns, k), place)
                 context.pack_value(builder, out.dtype, written[-1], there)
-            shown = show(written)
+            shown = show(is_in_doubt(builder, written))
         return builder.load(shown)
 
-    return types.intp(law, lines, outs, types.intp, types.intp, pairs), generate
+    return types.intp(law, lines, outs, types.intp, types.intp, pairs, finite), generate

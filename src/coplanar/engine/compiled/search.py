@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from numba import types
 
-from coplanar.engine.compiled import rounds
+from coplanar.engine.compiled import layout, rounds
 from coplanar.engine.compiled.kernels import Loops
 
 
@@ -21,7 +21,8 @@ class SearchKernel(Loops):
     def run(self, inputs, outputs, shape, most):
         """Search every row of the broadcast inputs in so many rounds; the outputs are new arrays of ``shape``."""
         columns = tuple(out.reshape(-1) for out in outputs)
-        self.fill("rounds", inputs, columns, shape, more=(most,), work=rounds.WORK, constants=self._constants)
+        ready = layout.columns(inputs, shape)
+        self.fill("rounds", inputs, ready, columns, shape, more=(most,), work=rounds.WORK, constants=self._constants)
         self.warm_up(len(inputs))
 
     def warm_up(self, count):

@@ -91,7 +91,8 @@ def sweep(typing, law, state, shared, own, start, parameters, rows, pattern):
                      True: iter(_row(context, builder, own, tables, builder.add(begin, index)))}  # fmt: skip
             held = [builder.load(place) for place in _places(builder, constants, index)]
             now = step(builder, [*map(builder.load, places), *(next(given[bit]) for bit in bits), *held])
-            shown = show(_write(context, builder, places, cgutils.unpack_tuple(builder, now), called.return_type))
+            written = _write(context, builder, places, cgutils.unpack_tuple(builder, now), called.return_type)
+            shown = show(is_nan(builder, written))
         return builder.load(shown)
 
     return types.intp(law, state, shared, own, types.intp, parameters, types.intp, pattern), generate
