@@ -102,7 +102,7 @@ def reach(typing, columns, strides, paces, row, begin, i):
     answer = types.Tuple([column.dtype for column in columns])
 
     def generate(context, builder, signature, arguments):
-        values = _read(context, builder, signature.args[0], arguments[0], _reached(builder, arguments))
+        values = _read(context, builder, signature.args[0], arguments[0], reached(builder, arguments))
         return context.make_tuple(builder, signature.return_type, values)
 
     return answer(columns, strides, paces, types.intp, types.intp, types.intp), generate
@@ -113,7 +113,7 @@ def fetch(typing, columns, strides, paces, row, begin, i):
     """Ask for what ``reach`` will read; nothing waits for it."""
 
     def generate(context, builder, signature, arguments):
-        _ask(context, builder, signature.args[0], arguments[0], _reached(builder, arguments), 0)
+        _ask(context, builder, signature.args[0], arguments[0], reached(builder, arguments), 0)
         return context.get_dummy_value()
 
     return types.void(columns, strides, paces, types.intp, types.intp, types.intp), generate
@@ -131,7 +131,8 @@ def claim(typing, columns, start, i):
     return types.void(columns, types.intp, types.intp), generate
 
 
-def _reached(builder, arguments):
+def reached(builder, arguments):
+    """Where ``reach`` reads."""
     _, by_row, by_step, which, first, index = arguments
     places = []
     for k in range(by_row.type.count):
@@ -205,7 +206,7 @@ def get(typing, table, column, i):
     """Entry ``i`` of a column of a table of shape (columns, ``WIDTH``)."""
 
     def generate(context, builder, signature, arguments):
-        pointer = _entry(context, builder, arguments, signature.args[0], 0)
+        pointer = entry_of(context, builder, arguments, signature.args[0], 0)
         return context.unpack_value(builder, signature.args[0].dtype, pointer)
 
     return table.dtype(table, types.intp, types.intp), generate
@@ -218,7 +219,7 @@ def some(typing, table, column, i, count):
 
     def generate(context, builder, signature, arguments):
         kind = signature.args[0]
-        pointers = [_entry(context, builder, arguments, kind, k) for k in range(count.literal_value)]
+        pointers = [entry_of(context, builder, arguments, kind, k) for k in range(count.literal_value)]
         values = [context.unpack_value(builder, kind.dtype, pointer) for pointer in pointers]
         return context.make_tuple(builder, signature.return_type, values)
 
@@ -235,13 +236,13 @@ def put(typing, table, column, i, value):
         for k in range(len(value) if many else 1):
             number = builder.extract_value(given, k) if many else given
             number = context.cast(builder, number, value[k] if many else value, kind.dtype)
-            context.pack_value(builder, kind.dtype, number, _entry(context, builder, arguments, kind, k))
+            context.pack_value(builder, kind.dtype, number, entry_of(context, builder, arguments, kind, k))
         return context.get_dummy_value()
 
     return types.void(table, types.intp, types.intp, value), generate
 
 
-def _entry(context, builder, arguments, kind, further):
+def entry_of(context, builder, arguments, kind, further):
     """Where it is. That columns are ``WIDTH`` apart is known to the compiler, which then sees that they do not meet."""
     table, column, i = arguments[:3]
     array = context.make_array(kind)(context, builder, table)

@@ -10,7 +10,7 @@ from llvmlite import ir
 from numba import types
 from numba.extending import intrinsic
 
-from coplanar.engine.compiled.columns import _entry, pointer_to
+from coplanar.engine.compiled.columns import entry_of, pointer_to
 
 LANES = 8  # numbers in the widest vectors, and in a line of the caches
 _VECTOR, _LANE = ir.VectorType(ir.DoubleType(), LANES), ir.IntType(32)
@@ -21,7 +21,7 @@ def sums(typing, table, column, i, total, begin):
     """``LANES`` entries of a column become ``begin`` plus the sums before each; returns the total after them."""
 
     def generate(context, builder, signature, arguments):
-        source = _entry(context, builder, arguments, signature.args[0], 0)
+        source = entry_of(context, builder, arguments, signature.args[0], 0)
         return _running(builder, source, source, *arguments[3:])
 
     return types.float64(table, types.intp, types.intp, types.float64, types.float64), generate
@@ -35,7 +35,7 @@ def sums_into(typing, columns, start, table, column, i, total, begin):
         place = builder.add(arguments[1], arguments[4])
         column = builder.extract_value(arguments[0], 0)
         target = pointer_to(context, builder, signature.args[0][0], column, place)
-        source = _entry(context, builder, arguments[2:], signature.args[2], 0)
+        source = entry_of(context, builder, arguments[2:], signature.args[2], 0)
         return _running(builder, source, target, *arguments[5:])
 
     index, number = types.intp, types.float64

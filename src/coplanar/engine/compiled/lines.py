@@ -10,7 +10,7 @@ from numba.core import cgutils
 from numba.extending import intrinsic
 
 from coplanar.engine.compiled.abreast import abreast, is_nan, is_not_finite
-from coplanar.engine.compiled.columns import pointer_to
+from coplanar.engine.compiled.columns import entry_of, pointer_to, reached
 
 SIDE_BY_SIDE = 2  # vectors; of more of them the numbers on the way find no room in the registers
 
@@ -70,30 +70,49 @@ def taken(builder, lines, place, pairs):
     return [builder.load(builder.gep(p, [i], inbounds=True)) for p, i in zip(pointers, places, strict=True)]
 
 
-@intrinsic(prefer_literal=True)
-def each(typing, law, lines, outs, start, rows, pairs, finite):
-    """``outs = law(*lines)`` on the first rows of the lines, written from ``start`` on.
+@intrinsic
+def along(typing, table, column, i, ins, strides, paces, row, first):
+    """Where a column of a table from entry ``i`` on, and what ``reach`` reads from ``first`` on, are: pointers."""
+    answer = types.Tuple([types.CPointer(kind.dtype) for kind in (table, *ins)])
 
-    Returns in how many a NaN shows. The pattern of pairs is that of ``take``. With ``finite`` infinities count too.
+    def generate(context, builder, signature, arguments):
+        zero = arguments[2].type(0)
+        head = entry_of(context, builder, arguments, signature.args[0], 0)
+        places = reached(builder, [*arguments[3:], zero])
+        columns = zip(signature.args[3], cgutils.unpack_tuple(builder, arguments[3]), places, strict=True)
+        rest = [pointer_to(context, builder, kind, column, place) for kind, column, place in columns]
+        return context.make_tuple(builder, signature.return_type, [head, *rest])
+
+    index = types.intp
+    return answer(table, index, index, ins, strides, paces, index, index), generate
+
+
+@intrinsic(prefer_literal=True)
+def each(typing, law, zeros, lines, outs, start, rows, pairs, finite):
+    """``outs = law(0, ..., *lines)`` on the first rows of the lines, written from ``start`` on.
+
+    Returns in how many rows a NaN shows. The law is given as many zeros first, and asked for as many results as there
+    are outs. The pattern of pairs is that of ``take``. With ``finite`` infinities count as NaN does.
     """
-    called = law.get_call_type(typing, tuple(line.dtype for line in lines), {})
+    given = (types.float64,) * zeros.literal_value + tuple(line.dtype for line in lines)
+    called = law.get_call_type(typing, given, {})
     kinds = called.return_type.types if isinstance(called.return_type, types.BaseTuple) else (called.return_type,)
 
     def generate(context, builder, signature, arguments):
-        _, given, columns, begin, count, _, _ = arguments
-        is_in_doubt = is_not_finite if finite.literal_value else is_nan
+        _, _, pointers, columns, begin, count, _, _ = arguments
         law_of_row = context.get_function(law, called)
+        is_in_doubt = is_not_finite if finite.literal_value else is_nan
+        first = [context.get_constant(types.float64, 0.0)] * zeros.literal_value
         with abreast(builder, count, SIDE_BY_SIDE) as (index, show):
-            answer = law_of_row(builder, taken(builder, given, index, pairs))
-            values = (
-                cgutils.unpack_tuple(builder, answer) if isinstance(called.return_type, types.BaseTuple) else [answer]
-            )
+            answer = law_of_row(builder, [*first, *taken(builder, pointers, index, pairs)])
+            many = isinstance(called.return_type, types.BaseTuple)
             place, written = builder.add(begin, index), []
-            for k, (value, kind, out) in enumerate(zip(values, kinds, outs, strict=True)):
-                written.append(context.cast(builder, value, kind, out.dtype))
+            for k, out in enumerate(outs):
+                value = builder.extract_value(answer, k) if many else answer
+                written.append(context.cast(builder, value, kinds[k], out.dtype))
                 there = pointer_to(context, builder, out, builder.extract_value(columns, k), place)
                 context.pack_value(builder, out.dtype, written[-1], there)
             shown = show(is_in_doubt(builder, written))
         return builder.load(shown)
 
-    return types.intp(law, lines, outs, types.intp, types.intp, pairs, finite), generate
+    return types.intp(law, zeros, lines, outs, types.intp, types.intp, pairs, finite), generate

@@ -49,7 +49,7 @@ def block(ins, steps, outs, start, rows):
         lay_out(ins, steps, room, start, rows)
     here = lines(ins, steps, room, start, PAIRS)  # noqa: F821
     left = 0
-    if each(law, here, outs, start, rows, PAIRS, FINITE):  # noqa: F821
+    if each(law, 0, here, outs, start, rows, PAIRS, FINITE):  # noqa: F821
         for i in range(rows):
             check = sum_of(outs, start, i)
             if check != check:  # NaN is what does not equal itself

@@ -28,6 +28,7 @@ from coplanar.engine.compiled.columns import (
     table_of,
 )
 from coplanar.engine.compiled.lanes import LANES, sums, sums_into
+from coplanar.engine.compiled.lines import along, each
 
 LONG = 4  # columns of a table that make one of a tile: the longer the tile, the less often its loops begin
 TILE = LONG * WIDTH
@@ -91,18 +92,16 @@ def ways(table, ins, strides, paces, outs, there, row, first, count):
     """
     align_stack()
     doubtful, block = 0, min(BLOCK, count)
+    flat = table.reshape(-1)
+    xy = (flat[X * WIDTH :], flat[Y * WIDTH :])
     for begin in range(0, count, BLOCK):
         for k in range(begin, begin + BLOCK, LANES):
             fetch(ins, strides, paces, row, first, count + k)
             if KEEP:  # noqa: F821
                 claim(outs, there, k)
         base = min(begin, count - block)
-        for k in range(block):
-            i = base + k
-            x, y, _ = law(0.0, 0.0, get(table, TURN, i), *reach(ins, strides, paces, row, first, i))  # noqa: F821
-            put(table, X, i, x)
-            put(table, Y, i, y)
-            doubtful += 0 if x + y == x + y else 1
+        here = along(table, TURN, base, ins, strides, paces, row, first + base)
+        doubtful += each(law, 2, here, xy, base, block, 0, False)  # noqa: F821
     if doubtful:
         for i in range(count):
             x, y, _ = safe_law(0.0, 0.0, get(table, TURN, i), *reach(ins, strides, paces, row, first, i))  # noqa: F821
