@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from coplanar import checks
 from coplanar.checks import ArrayLike, Real
-from coplanar.engine import Walk, evaluator, is_foreign, memory, running_sum, written
+from coplanar.engine import Evaluator, Walk, evaluator, is_foreign, memory, running_sum, written
 from coplanar.errors import InvalidShape, InvalidValue
 from coplanar.integrators import METHODS
 from coplanar.laws import motion as laws
@@ -108,10 +109,8 @@ class Odometry:
         """
         times = checks.monotone("t", t)
         dt = np.diff(times)
-        way, turn = (
-            _made(name, held_samples(name, rate, times.size, look=False), dt)
-            for name, rate in (("v", v), ("omega", omega))
-        )
+        held = {name: held_samples(name, rate, times.size, look=False) for name, rate in (("v", v), ("omega", omega))}
+        way, turn = (_measured(_covered, 1, **{name: rate}, dt=dt)[0] for name, rate in held.items())
         checks.broadcast(v=way, omega=turn)
         return cls(Displacement._of(way, 0.0, turn))
 
@@ -132,10 +131,11 @@ class Odometry:
             >>> Odometry.from_wheels([0.1], [0.3], track=0.4).path(Pose()).theta.round(12).tolist()
             [0.0, 0.5]
         """
-        ways = {"left": checks.vector("left", left), "right": checks.vector("right", right)}
-        ways["track"] = checks.positive("track", track)
-        checks.broadcast(**ways)
-        distance, turn = _wheel_increments(*ways.values())
+        ways = {
+            name: checks.ending_in(None, name, checks.reals(name, way))
+            for name, way in (("left", left), ("right", right))
+        }
+        distance, turn = _measured(_wheel_increments, 2, **ways, track=checks.positive("track", track))
         return cls(Displacement._of(distance, 0.0, turn))
 
     def path(self, start: Pose, *, method: str = EXACT, out: np.ndarray | None = None) -> Pose:
@@ -226,14 +226,22 @@ class Odometry:
         return carried(about(path, start), summed_about(path, start, self.increments, Q, P))
 
 
-def _made(name: str, rate: Real, dt: np.ndarray) -> Real:
-    """What a rate makes of each time; that it is finite is seen on the way."""
-    if is_foreign(rate):
-        return rate * dt
-    made: np.ndarray = memory.empty(np.broadcast_shapes(np.shape(rate), dt.shape))
-    if not _covered.into((made,), rate, dt, finite=True):
-        checks.finite(name, np.asarray(rate))
-    return made
+def _measured(law: Evaluator, results: int, **given: Real) -> Any:
+    """What a law makes of arrays; that they are finite is seen on the way.
+
+    Raises:
+        InvalidShape: If they do not broadcast.
+        InvalidValue: If one of them has a NaN or an infinity.
+    """
+    shape = checks.broadcast(**given)
+    if any(map(is_foreign, given.values())):
+        answer = law(*given.values())
+        return answer if results > 1 else (answer,)
+    table: np.ndarray = memory.empty((results, *shape))
+    if not law.into(tuple(table), *given.values(), finite=True):
+        for name, value in given.items():
+            checks.finite(name, np.asarray(value))
+    return table
 
 
 def walked(
