@@ -49,18 +49,24 @@ def real(name: str, value: ArrayLike, *, remedy: str = "") -> Real:
     if is_foreign(value):
         return value
     array = _as_float64(name, value, remedy)
-    finite(name, array, remedy=remedy)
+    finite(name, value, array, remedy=remedy)
     return float(array) if array.ndim == 0 else array
 
 
-def finite(name: str, array: np.ndarray, *, remedy: str = "") -> None:
+def finite(name: str, value: Any, array: np.ndarray, *, remedy: str = "") -> None:
     """Refuse NaN and infinity.
+
+    Args:
+        name: What to call it in the error.
+        value: What was given.
+        array: Its numbers.
+        remedy: What to do when it is refused.
 
     Raises:
         InvalidValue: With the first entry that is one.
     """
     if not _all_finite(array):
-        raise InvalidValue(name, array, _where("finite numbers", array, np.isfinite(array)), remedy)
+        raise InvalidValue(name, value, _where("finite numbers", array, np.isfinite(array)), remedy)
 
 
 def reals(name: str, value: ArrayLike, *, remedy: str = "") -> Any:

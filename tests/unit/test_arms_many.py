@@ -11,6 +11,7 @@ from coplanar import Pose
 from coplanar.arms import Arm, Reach, numerical
 from coplanar.arms.posture import Posture, columns, linkage
 from coplanar.engine import evaluator, reproducible
+from coplanar.errors import InvalidValue
 from coplanar.laws import arms as laws
 from coplanar.solving import Status, code_of
 from tests.engines import NEEDS_NUMBA
@@ -237,6 +238,22 @@ def test_one_target_is_answered_like_a_row_of_many(arm, wish):
                 assert np.shape(ours) == np.shape(theirs), field
                 assert np.allclose(ours, theirs, atol=1e-12), (field, row)
             assert one.status is many.status[row]
+
+
+@pytest.mark.parametrize("rows", [3, 30_000, 300_000])
+@pytest.mark.parametrize("place", [(0,), (1,), (0, 1)], ids=str)
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_a_target_that_is_not_finite_is_refused_however_many_there_are(rows, place, value):
+    targets = np.random.default_rng(6).uniform(-1.0, 1.0, (rows, 2))
+    targets[rows // 2, place] = value
+    for arm in (Arm((1.0, 0.8)), Arm((1.0, 0.8), base=Pose(1.0, 0.0, 0.3)), Arm((1.0, 0.8), limits=[(-1.0, 2.0)] * 2)):
+        with pytest.raises(InvalidValue, match=rf"target.*finite numbers \(entry \({rows // 2}, {place[0]}\)"):
+            arm.inverse(targets)
+
+
+def test_targets_whose_sums_overflow_are_numbers():
+    targets = np.full((30_000, 2), 1.7e308)
+    assert set(Arm((1.0, 0.8)).inverse(targets).status) == {Reach.TOO_FAR}
 
 
 def test_what_is_worked_out_later_does_not_see_what_became_of_the_callers_arrays():

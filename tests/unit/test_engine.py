@@ -9,7 +9,7 @@ import pytest
 
 from coplanar.engine import components, cos, evaluator, is_foreign, namespace_of, sin, stack
 from coplanar.errors import InvalidShape
-from coplanar.laws import se2
+from coplanar.laws import motion, se2
 from tests.engines import ARRAY_ENGINES, NEEDS_JAX, NEEDS_NUMBA, on_engine
 
 act = evaluator(se2.act)
@@ -292,3 +292,16 @@ def test_one_number_for_all_rows_is_read_as_one():
     ):
         assert one.shape == (300, 40)
         assert np.allclose(one, two, rtol=0.0, atol=1e-15)
+
+
+@pytest.mark.parametrize("rows", [5, 30_000, 500_000])
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_what_is_written_tells_whether_it_is_finite(rows, value):
+    law, column, out = evaluator(motion.covered), np.full(rows, 2.0), np.empty(rows)
+    assert law.into((out,), column, 3.0)
+    assert law.into((out,), column, 3.0, finite=True)
+    assert np.all(out == 6.0)
+    column[rows // 2] = value
+    assert law.into((out,), column, 3.0) is (not np.isnan(value))
+    assert not law.into((out,), column, 3.0, finite=True)
+    assert np.array_equal(out, 3.0 * column, equal_nan=True)

@@ -186,6 +186,22 @@ def test_odometry_arguments_are_checked():
     assert ticks.covariances(Pose(), np.zeros((3, 3, 3))).shape == (4, 3, 3)
 
 
+@pytest.mark.parametrize("ticks", [5, 30_000, 500_000])
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_what_was_measured_is_finite_however_long_the_log(ticks, value):
+    good, bad = np.ones(ticks), np.ones(ticks)
+    bad[ticks // 2] = value
+    times = np.arange(ticks + 1.0)
+    for name, ask in {
+        "left": lambda: Odometry.from_wheels(bad, good, track=1.0),
+        "right": lambda: Odometry.from_wheels(good, bad, track=1.0),
+        "v": lambda: Odometry.from_velocities(bad, 0.0, times),
+        "omega": lambda: Odometry.from_velocities(good, bad, times),
+    }.items():
+        with pytest.raises(InvalidValue, match=rf"^{name} .*\(entry {ticks // 2} is"):
+            ask()
+
+
 def test_wheels_are_named_left_and_right():
     """More on the right turns to the left, by difference over the whole track."""
     path = Odometry.from_wheels(left=[0.0], right=[1.0], track=2.0).path(Pose())

@@ -30,6 +30,14 @@ LAYOUTS = {
     "two axes that do not meet": lambda n: [numbers((2, 2 * n, 2))[:, :n, k] for k in (0, 1)],
     "upright": lambda n: [numbers((n, 2)).T, numbers((n, 2), 1).T],
     "spread over an axis": lambda n: [numbers((n, 2))[:, 0], numbers((3, 1), 1)],
+    "a row for a table": lambda n: [numbers((n, 3)), numbers(3, 1)],
+    "rows that divide one another": lambda n: [numbers((n, 2, 3))[..., 0, None] + numbers((2, 3)), numbers(3, 1)],
+    "rows of two lengths": lambda n: [numbers((2, 1, 3)) + numbers((n, 1, 1, 1)), numbers((2, 1, 1), 1) + numbers(3)],
+    "a row spread by hand": lambda n: [numbers((n, 5)), np.broadcast_to(numbers(5, 1), (n, 5))],
+    "a row longer than a block": lambda n: [numbers((2, BLOCK + n)), numbers(BLOCK + n, 1)],
+    "a row backwards": lambda n: [numbers((n, 7)), numbers(14, 1)[::-2]],
+    "a row and points": lambda n: [numbers((n, 4))[:, ::2], numbers(2, 1)],
+    "a row and what has to be laid out": lambda n: [numbers((4, n)).T, numbers(4, 1)],
     "broadcast": lambda n: np.broadcast_arrays(numbers(n), numbers(n, 1)),
     "read-only": lambda n: [_fixed(numbers((n, 2)))[:, k] for k in (0, 1)],
 }
@@ -51,6 +59,13 @@ def test_the_answer_does_not_hang_on_how_arrays_lie(layout, n):
         assert ours.shape == plain[0].shape
         assert np.array_equal(ours, theirs)
     assert all(np.array_equal(a, b) for a, b in zip(given, before, strict=True))
+
+
+def test_rows_of_a_table_that_repeat_are_read_again_by_the_safe_law():
+    law, table = evaluator(se2.rotate), numbers((BLOCK, 3))
+    angles = np.array([0.5, 1e7, -2.0])
+    x, _ = law.on_compiled(angles, table, 1.0)
+    assert np.allclose(x, np.cos(angles) * table - np.sin(angles), atol=1e-14)
 
 
 def test_rows_that_the_fast_law_leaves_are_answered_from_where_they_lie():

@@ -75,7 +75,7 @@ class Goal:
             x, y = (part.reshape(-1) for part in parts)
             return cls(lead, x, y, None, None, elbow, tolerance, owned=False)
         if not pose and not is_foreign(target):
-            checks.finite("target", np.asarray(target, np.float64), remedy=REMEDY)
+            checks.finite("target", target, np.asarray(target, np.float64), remedy=REMEDY)
         x, y, *heading = _columns(parts, lead)
         return cls(
             lead,
@@ -96,7 +96,7 @@ class Goal:
         """Take these columns for the positions; they are checked unless it is known that they are finite."""
         self.x, self.y, self.owned = x, y, True
         if not finite:
-            checks.finite("target", self.points, remedy=REMEDY)
+            checks.finite("target", self.points, self.points, remedy=REMEDY)
 
     @property
     def aims(self) -> list[Real]:

@@ -240,7 +240,7 @@ def _measured(law: Evaluator, results: int, **given: Real) -> Any:
     table: np.ndarray = memory.empty((results, *shape))
     if not law.into(tuple(table), *given.values(), finite=True):
         for name, value in given.items():
-            checks.finite(name, np.asarray(value))
+            checks.finite(name, value if np.ndim(value) else float(value), np.asarray(value))
     return table
 
 
