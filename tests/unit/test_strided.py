@@ -7,6 +7,7 @@ import pytest
 
 from coplanar import Arm, Pose
 from coplanar.engine import Evaluator, evaluator
+from coplanar.engine.compiled import kernels
 from coplanar.laws import arms, se2
 from tests.engines import NEEDS_NUMBA
 
@@ -59,6 +60,19 @@ def test_the_answer_does_not_hang_on_how_arrays_lie(layout, n):
         assert ours.shape == plain[0].shape
         assert np.array_equal(ours, theirs)
     assert all(np.array_equal(a, b) for a, b in zip(given, before, strict=True))
+
+
+@pytest.mark.parametrize("third", ["upright", "broadcast"])
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_nor_on_the_parts_that_some_are_laid_out_in(layout, third, monkeypatch):
+    monkeypatch.setattr(kernels, "SPREAD_ROWS", 1000)
+    law, n = evaluator(arms.link), BLOCK + 321
+    given = [0.5, *LAYOUTS[layout](n)]
+    shape = np.broadcast_shapes(*map(np.shape, given))
+    spread = numbers(shape[::-1], 2).T if third == "upright" else np.broadcast_to(numbers((*shape[:-1], 1), 2), shape)
+    plain = [np.ascontiguousarray(np.broadcast_to(a, shape)) for a in (spread, *given)]
+    for ours, theirs in zip(law.on_compiled(spread, *given), law.on_compiled(*plain), strict=True):
+        assert np.array_equal(ours, theirs)
 
 
 def test_rows_of_a_table_that_repeat_are_read_again_by_the_safe_law():

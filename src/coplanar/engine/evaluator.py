@@ -23,6 +23,7 @@ from coplanar.engine.policy import AT_ONCE, COMPILED_ROWS, LONG, can_compile, mo
 from coplanar.errors import InvalidShape
 
 _FLOAT = frozenset((float,))
+_NUMBERS = frozenset((float, np.ndarray))
 _FLOAT64 = np.dtype(np.float64)
 _FLOAT_PRIMITIVES = {name: getattr(scalars, name) for name in (*PRIMITIVES, "integral")}
 _float_laws: dict[Any, Any] = {}
@@ -83,7 +84,7 @@ class Evaluator:
         """By what the arguments are."""
         if _FLOAT.issuperset(map(type, args)):
             return self._on_numbers(args)
-        if any(is_foreign(a) for a in args):
+        if not _NUMBERS.issuperset(map(type, args)) and any(is_foreign(a) for a in args):
             return self._on_foreign(args)
         inputs = _as_arrays(args)
         shape = self._shape(inputs)

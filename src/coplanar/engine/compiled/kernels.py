@@ -104,24 +104,23 @@ class Loops:
         loop returns.
         """
         rows = math.prod(shape)
-        ins, steps = zip(*ready, strict=True)
+        ins, steps = ready
         if None not in steps:
             return self.loop(kind, (ins, steps, columns, rows, *more), work * rows, rows, constants)
         steps = tuple(1 if step is None else step for step in steps)
         whole = [np.broadcast_to(a, shape) for a in inputs]
         room = [None if column is not None else np.empty(min(rows, SPREAD_ROWS), a.dtype.newbyteorder("="))
-                for (column, _), a in zip(ready, inputs, strict=True)]  # fmt: skip
+                for column, a in zip(ready[0], inputs, strict=True)]  # fmt: skip
         start = total = 0
         for index in layout.slabs(shape, SPREAD_ROWS):
             count = whole[0][index].size
-            stop = start + count
             ins = tuple(
-                layout.laid_out(array[index], space) if column is None else column[start:stop] if step else column
-                for (column, step), array, space in zip(ready, whole, room, strict=True)
+                layout.part(column, step, array[index], space)
+                for column, step, array, space in zip(*ready, whole, room, strict=True)
             )
-            outs = tuple(c[start:stop] for c in columns)
+            outs = tuple(c[start : start + count] for c in columns)
             total += self.loop(kind, (ins, steps, outs, count, *more), work * count, count, constants)
-            start = stop
+            start += count
         return total
 
 
@@ -204,10 +203,14 @@ class Kernel(Loops):
         Returns:
             How many rows show a NaN (or infinities that cancel).
         """
-        ready, block = layout.repeated(inputs, layout.columns(inputs, shape), shape)
-        constants = (("SINGLE", True),) if inputs[0].dtype == np.float32 else ()
-        constants = (*constants, ("PAIRS", _bits(step == 2 for _, step in ready)), ("FINITE", finite))
-        columns = tuple([o.reshape(-1) for o in outputs])
+        ready, block = layout.columns(inputs, shape), loops.BLOCK
+        if None in ready[1]:
+            ready, block = layout.repeated(inputs, ready, shape)
+        pairs = _bits(step == 2 for step in ready[1]) if 2 in ready[1] else 0
+        constants = (("PAIRS", pairs), ("FINITE", finite))
+        if inputs[0].dtype == np.float32:
+            constants = (("SINGLE", True), *constants)
+        columns = tuple([o.ravel() for o in outputs])
         return self.fill("rows", inputs, ready, columns, shape, more=(block,), constants=constants)
 
 

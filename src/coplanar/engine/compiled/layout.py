@@ -9,6 +9,13 @@ import numpy as np
 from coplanar.engine.compiled import loops
 
 
+def part(column, step, piece, space):
+    """A piece of an input as a column of the input's step: where it lies, or in a space that it may fill."""
+    if step is None:
+        return laid_out(piece, space)
+    return read_only(piece if step == 1 else piece[(slice(1),) * piece.ndim]) if step else column
+
+
 def laid_out(piece, space):
     """The piece in a row, in a space that it may fill."""
     column = space[: piece.size]
@@ -42,27 +49,28 @@ def column(array, shape, rows):
 
 
 def columns(inputs, shape):
-    """Every input as a column and its step."""
+    """The inputs as columns, and their steps."""
     rows = math.prod(shape)
-    return [column(a, shape, rows) for a in inputs]
+    return tuple(zip(*[column(a, shape, rows) for a in inputs], strict=True))
 
 
 def repeated(inputs, ready, shape):
-    """The columns, of which those that repeat themselves have step 0 like a number, and the rows of a block.
+    """As ``columns``, but those that repeat themselves have step 0 like a number; and the rows of a block.
 
     Such an input is laid out for one block. A block is whole periods of all of them, so that each begins with it.
     """
-    periods = [1 if step is not None else period(a, shape) for a, (_, step) in zip(inputs, ready, strict=True)]
+    ins, steps = ready
+    periods = [1 if step is not None else period(a, shape) for a, step in zip(inputs, steps, strict=True)]
     common = math.lcm(*periods)
     if not 1 < common <= loops.BLOCK:
         return ready, loops.BLOCK
     block = loops.BLOCK // common * common
     count = min(block, math.prod(shape))
     filled = [
-        pair if pair[1] is not None else (read_only(np.resize(a[(0,) * (a.ndim - tail(a, shape))], count)), 0)
-        for pair, a in zip(ready, inputs, strict=True)
+        read_only(np.resize(a[(0,) * (a.ndim - tail(a, shape))], count)) if column is None else column
+        for column, a in zip(ins, inputs, strict=True)
     ]
-    return filled, block
+    return (tuple(filled), tuple(step or 0 for step in steps)), block
 
 
 def period(array, shape):
@@ -94,8 +102,8 @@ def spread(array, count):
 
 def read_only(array):
     """The entries in a row, not to be written."""
-    column = array.reshape(-1)
-    column.setflags(write=False)
+    column = array.ravel()
+    column.setflags(False)
     return column
 
 
