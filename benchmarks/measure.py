@@ -221,7 +221,6 @@ def _time(timings: list[Timing], effort: Effort) -> None:
 
 
 def _calls(contender: Contender, slice_: float) -> int:
-    _elapsed(contender, 1)
     once = _elapsed(contender, 1)
     if once > slice_:
         return 1
@@ -232,8 +231,7 @@ def _calls(contender: Contender, slice_: float) -> int:
 def _elapsed(contender: Contender, calls: int) -> float:
     call = contender.call
     with threads(contender.threads):
-        if calls > 1:  # what the contender before left in the caches and the heap counts for nobody
-            call()
+        call()  # what the contender before left in the caches, the heap and the threads counts for nobody
         start = time.perf_counter()
         for _ in repeat(None, calls):
             call()
