@@ -3,7 +3,8 @@
 A fast primitive says "not by me" with NaN, and the loop evaluates every row again that shows one. A comparison forgets
 a NaN: ``where(sin(x) > 0, 1, -1)`` would answer -1 for every angle that is too large for the fast sine. So the law is
 run once on symbols that remember which answers of fast primitives they hang on, and every answer that was compared
-must still show in some result.
+must still show in some result. What hangs on an answer only on one side of a ``where`` may be compared if a result
+hangs on it on that side too: the answer carries the side with it.
 """
 
 from __future__ import annotations
@@ -20,15 +21,18 @@ def shows_every_nan(law):
     arguments = [_Symbol(trace) for _ in range(law.__code__.co_argcount)]
     answer = bind(law, trace.primitives())(*arguments)
     shown = frozenset().union(*(_must(a) for a in (answer if isinstance(answer, tuple) else (answer,))))
-    return trace.compared <= shown
+    return all(any(number == n and sides <= s for n, sides in shown) for number, s in trace.compared)
 
 
 class _Trace:
-    """One run of a law: numbers the answers of fast primitives, and collects those that were compared."""
+    """One run of a law: numbers the answers of fast primitives, and collects those that were compared.
+
+    An answer is its number and the sides of ``where`` on which it counts.
+    """
 
     def __init__(self):
         self.compared = frozenset()
-        self._answers = itertools.count()
+        self._numbers = itertools.count()
 
     def primitives(self):
         special = {
@@ -49,14 +53,18 @@ class _Trace:
         return _Symbol(self, may, must)
 
     def _new(self, *values):
-        answer = frozenset((next(self._answers),))
+        answer = frozenset(((next(self._numbers), frozenset()),))
         return self.join(_Symbol(self, answer, answer), *values)
 
     def _ordinary(self, name):
         return self._new if name in NAN_WHERE_NOT else self.join
 
     def _where(self, _condition, yes, no):
-        return _Symbol(self, _may(yes) | _may(no), _must(yes) & _must(no))
+        number = next(self._numbers)
+        may, must = (
+            _on_side(held(yes), number, side=True) | _on_side(held(no), number, side=False) for held in (_may, _must)
+        )
+        return _Symbol(self, may, must | (_must(yes) & _must(no)))
 
     def _copysign(self, size, sign):
         self.compare(sign)
@@ -92,6 +100,11 @@ class _Symbol:
     __lt__ = __le__ = __gt__ = __ge__ = __eq__ = __ne__ = _compare
     __and__ = __rand__ = __or__ = __ror__ = __xor__ = __invert__ = _join
     __hash__ = None  # type: ignore[assignment]
+
+
+def _on_side(answers, number, *, side):
+    """The answers, which count on this side of a ``where`` only."""
+    return frozenset((answer, sides | {(number, side)}) for answer, sides in answers)
 
 
 def _may(value):

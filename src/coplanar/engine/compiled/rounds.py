@@ -1,7 +1,8 @@
 """The loops of a search along an integral: a block of rows advances together, and rows that have settled leave.
 
-``begin``, ``span``, ``rates``, ``improve``, ``finish``, their safe forms and the constants ROW (numbers of a row), WITH
-(and whether it goes on), STATE, SPAN (what a span has), ARGS (of them parameters) and SUMS are names that
+``begin``, ``span``, ``rates``, ``improve``, ``finish``, their safe forms and the constants GIVEN (numbers of an input),
+ROW (of a row), WITH (and whether it goes on), STATE, SPAN (what a span has), ARGS (of them parameters), SUMS and OUT
+(of an answer) are names that
 ``coplanar.engine.compiled.search`` supplies; the bodies are templates and never run as they stand. A row shows a NaN
 where a fast primitive does not answer; it is searched for again, safely, from its beginning.
 
@@ -130,10 +131,13 @@ def leave(table, settled, which, rows):
 def rounds_block(ins, steps, outs, most, start, rows):
     """One block of rows from its beginning to the answers."""
     align_stack()
-    table, settled = table_of(ROW + 1 + SPAN + 2 * SUMS), table_of(1 + ROW)  # noqa: F821
+    table = table_of(max(ROW + 1 + SPAN + 2 * SUMS, OUT))  # noqa: F821
+    settled = table_of(max(1 + ROW, GIVEN))  # noqa: F821
     which, place = np.arange(WIDTH), np.empty(WIDTH, np.int64)
     for i in range(rows):
-        put(table, 0, i, begin(*pick(ins, steps, start + i)))  # noqa: F821
+        put(settled, 0, i, pick(ins, steps, start + i))
+    for i in range(rows):
+        put(table, 0, i, begin(*some(settled, 0, i, GIVEN)))  # noqa: F821
     open_rows = rows
     for _ in range(most):
         integrals(table, place, open_rows)
@@ -146,7 +150,9 @@ def rounds_block(ins, steps, outs, most, start, rows):
         put(settled, 0, which[i], 1.0)
     doubtful = 0
     for i in range(rows):
-        check = scatter(outs, start, i, finish(*some(settled, 0, i, WITH)))  # noqa: F821
+        put(table, 0, i, finish(*some(settled, 0, i, WITH)))  # noqa: F821
+    for i in range(rows):
+        check = scatter(outs, start, i, some(table, 0, i, OUT))  # noqa: F821
         doubtful += 0 if check == check else 1  # NaN is what does not equal itself
     if doubtful:
         again(ins, steps, outs, most, start, rows)

@@ -14,7 +14,7 @@ class SearchKernel(Loops):
     def __init__(self, laws, sizes) -> None:
         """Laws by the names that the module of ``Search`` gives them, and how many numbers each takes and returns."""
         super().__init__(laws, {"rounds": rounds})
-        more = {"WITH": 1 + sizes["ROW"], "SPAN": 3 + sizes["ARGS"]}
+        more = {"GIVEN": laws["begin"].__code__.co_argcount, "WITH": 1 + sizes["ROW"], "SPAN": 3 + sizes["ARGS"]}
         self._constants = tuple({**sizes, **more}.items())
         self.single = None  # from a tuple of numbers and the rounds to the answer, once it is compiled
 
