@@ -15,19 +15,38 @@ from numba.core import cgutils
 _PLACE = ir.IntType(64)
 
 
+class _Group(ir.values.MDValue):
+    """Metadata for accesses of memory, told from any other by being distinct."""
+
+    def __init__(self, module):
+        super().__init__(module, (), name=str(len(module.metadata)))
+
+    def descr(self, buf):
+        buf += ("distinct !{ }", "\n")
+
+
 @contextmanager
 def abreast(builder, count, vectors):
-    """The body of a loop over rows: its index, and what counts the rows that show a flag: it returns where."""
+    """The body of a loop over rows: its index, what counts the rows that show a flag, and what marks an access.
+
+    The first returns where the count is kept. If all loads and stores are marked, the compiler knows that nothing
+    written is read or written by another row, and asks nothing of addresses when the loop begins.
+    """
+    group = _Group(builder.module)
     shown = cgutils.alloca_once_value(builder, _PLACE(0))
 
     def show(flag):
         builder.store(builder.add(builder.load(shown), builder.zext(flag, _PLACE)), shown)
         return shown
 
+    def mark(access):
+        access.set_metadata("llvm.access.group", group)
+        return access
+
     with cgutils.for_range(builder, count) as loop:
-        yield loop.index, show
+        yield loop.index, show, mark
         last = builder.block
-    _advise(last.terminator, vectors)
+    _advise(last.terminator, vectors, group)
 
 
 def is_nan(builder, values):
@@ -51,11 +70,11 @@ def sum_in_pairs(builder, values):
     return values[0]
 
 
-def _advise(branch, vectors):
-    """Tell the compiler at the end of a loop how many vectors to work on side by side."""
+def _advise(branch, vectors, group):
+    """Tell the compiler at the end of a loop how many vectors to work on side by side, and which accesses are apart."""
     module = branch.module
-    words = ir.MetaDataString(module, "llvm.loop.interleave.count")
-    advice = module.add_metadata([words, ir.IntType(32)(vectors)])
+    wishes = {"llvm.loop.interleave.count": ir.IntType(32)(vectors), "llvm.loop.parallel_accesses": group}
+    advice = [module.add_metadata([ir.MetaDataString(module, name), value]) for name, value in wishes.items()]
     loop = ir.values.MDValue(module, (), name=str(len(module.metadata)))
-    loop.operands = (loop, advice)  # a loop is told from others by naming itself
+    loop.operands = (loop, *advice)  # a loop is told from others by naming itself
     branch.set_metadata("llvm.loop", loop)

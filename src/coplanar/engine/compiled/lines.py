@@ -103,15 +103,15 @@ def each(typing, law, zeros, lines, outs, start, rows, pairs, finite):
         law_of_row = context.get_function(law, called)
         is_in_doubt = is_not_finite if finite.literal_value else is_nan
         first = [context.get_constant(types.float64, 0.0)] * zeros.literal_value
-        with abreast(builder, count, SIDE_BY_SIDE) as (index, show):
-            answer = law_of_row(builder, [*first, *taken(builder, pointers, index, pairs)])
+        with abreast(builder, count, SIDE_BY_SIDE) as (index, show, mark):
+            answer = law_of_row(builder, [*first, *map(mark, taken(builder, pointers, index, pairs))])
             many = isinstance(called.return_type, types.BaseTuple)
             place, written = builder.add(begin, index), []
             for k, out in enumerate(outs):
                 value = builder.extract_value(answer, k) if many else answer
                 written.append(context.cast(builder, value, kinds[k], out.dtype))
                 there = pointer_to(context, builder, out, builder.extract_value(columns, k), place)
-                context.pack_value(builder, out.dtype, written[-1], there)
+                mark(builder.store(written[-1], there))
             shown = show(is_in_doubt(builder, written))
         return builder.load(shown)
 

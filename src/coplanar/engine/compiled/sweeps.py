@@ -85,7 +85,7 @@ def sweep(typing, law, state, shared, own, start, parameters, rows, pattern):
     def generate(context, builder, signature, arguments):
         _, columns, numbers, tables, begin, constants, count, _ = arguments
         step = context.get_function(law, called)
-        with abreast(builder, count, STEPS) as (index, show):
+        with abreast(builder, count, STEPS) as (index, show, _):
             places = _places(builder, columns, index)
             given = {False: iter(cgutils.unpack_tuple(builder, numbers)),
                      True: iter(_row(context, builder, own, tables, builder.add(begin, index)))}  # fmt: skip
