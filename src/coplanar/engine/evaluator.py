@@ -231,8 +231,8 @@ def _foreign_primitives(namespace: Any) -> dict[str, Any]:
 
 def _as_arrays(args: tuple[Any, ...]) -> tuple[np.ndarray, ...]:
     """Arrays of one float type: float32 where every array is, otherwise float64."""
-    if all([type(a) is np.ndarray and a.dtype is _FLOAT64 for a in args]):
-        return args
+    if all([type(a) is float or (type(a) is np.ndarray and a.dtype is _FLOAT64) for a in args]):
+        return tuple([np.asarray(a) if type(a) is float else a for a in args])
     arrays = [np.asarray(a) for a in args]
     single = [a.dtype == np.float32 for a in arrays if a.ndim]
     dtype = np.float32 if single and all(single) else np.float64

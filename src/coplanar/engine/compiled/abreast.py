@@ -15,7 +15,7 @@ from numba.core import cgutils
 _PLACE = ir.IntType(64)
 
 
-class _Group(ir.values.MDValue):
+class _Group(ir.values.MDValue):  # type: ignore[misc]
     """Metadata for accesses of memory, told from any other by being distinct."""
 
     def __init__(self, module):

@@ -183,7 +183,8 @@ class Kernel(Loops):
 
     def run_into(self, outputs, inputs, shape, *, finite=False):
         """``run`` where the outputs may lie in memory as they like, over the inputs too; returns the same."""
-        fit = [layout.may_be_written(out, inputs) for out in outputs]
+        tables = [a for a in inputs if a.ndim]
+        fit = [layout.may_be_written(out, tables) for out in outputs]
         targets = [out if fits else memory.empty(shape, out.dtype) for out, fits in zip(outputs, fit, strict=True)]
         left = self.run(inputs, targets, shape, finite=finite)
         for out, target in zip(outputs, targets, strict=True):

@@ -37,6 +37,8 @@ def column(array, shape, rows):
 
     All columns are read-only, so that a loop is compiled once whether or not the caller's arrays are.
     """
+    if not array.ndim and shape:
+        return read_only(spread(array, min(rows, loops.BLOCK))), 0
     layout = array.flags
     if array.shape == shape and layout.aligned:
         if layout.c_contiguous:
@@ -97,7 +99,9 @@ def even_step(array):
 
 def spread(array, count):
     """The one number of an array so many times."""
-    return np.full(count, array.flat[0], array.dtype)
+    column = np.empty(count, array.dtype)
+    column.fill(array.flat[0])
+    return column
 
 
 def read_only(array):

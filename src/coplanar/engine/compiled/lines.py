@@ -34,10 +34,8 @@ def lines(typing, columns, steps, room, start, pairs):
             there = pointer_to(context, builder, kind, builder.extract_value(table, k), builder.mul(begin, step))
             if not _bit(pairs, k):
                 apart = builder.icmp_unsigned(">", step, one)
-                room_for_it = [slot, zero]
-                laid = cgutils.get_item_pointer(
-                    context, builder, signature.args[2], shelf, room_for_it, wraparound=False
-                )
+                corner = [slot, zero]
+                laid = cgutils.get_item_pointer(context, builder, signature.args[2], shelf, corner, wraparound=False)
                 there = builder.select(apart, laid, there)
                 slot = builder.add(slot, builder.zext(apart, slot.type))
             pointers.append(there)
