@@ -12,7 +12,7 @@ from coplanar.engine import evaluator, gauss
 from coplanar.integrators import integrate_ode
 from coplanar.laws import motion as laws
 from coplanar.motion import DrivingHistory, Odometry, OdometryNoise, Program, Segment
-from coplanar.motion.odometry import carried
+from coplanar.motion.covariance import carried
 from tests.engines import HAS_JAX, on_floats
 
 SHAPES = [(), (1,), (3, 1, 2)]

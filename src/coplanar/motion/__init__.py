@@ -4,9 +4,10 @@ Radians, metres, seconds. Every field is a float or an array; leading axes are r
 """
 
 from coplanar.motion.comparison import Comparison
+from coplanar.motion.covariance import OdometryNoise
 from coplanar.motion.driving import DrivingHistory
 from coplanar.motion.holonomic import HolonomicMotion, discretize, twist_between
-from coplanar.motion.odometry import Odometry, OdometryNoise
+from coplanar.motion.odometry import Odometry
 from coplanar.motion.program import Program
 from coplanar.motion.ramp import Ramp, Trapezoid
 from coplanar.motion.reckoning import Reckoning, Stretch

@@ -9,17 +9,8 @@ import numpy as np
 
 from coplanar import checks
 from coplanar.checks import ArrayLike, Real
-from coplanar.motion.odometry import (
-    EXACT,
-    PATH_METHODS,
-    Odometry,
-    OdometryNoise,
-    about,
-    carried,
-    checked_covariance,
-    summed_about,
-    walked,
-)
+from coplanar.motion.covariance import OdometryNoise, about, carried, checked_covariance, summed_about
+from coplanar.motion.odometry import EXACT, PATH_METHODS, Odometry, walked
 from coplanar.se2 import Pose
 
 

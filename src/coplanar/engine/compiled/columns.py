@@ -15,8 +15,6 @@ from numba.extending import intrinsic, register_jitable
 from coplanar.engine.compiled.abreast import sum_in_pairs
 
 WIDTH = 264  # rows of a table: 64 columns of them are 128 KiB, which the second-level cache holds
-
-
 LINE = 8  # numbers in a line of the cache
 
 
@@ -47,7 +45,7 @@ def align_stack(typing):
     """Have the function's stack begin at a whole line of the cache, so that no vector kept there lies across two."""
 
     def generate(context, builder, signature, arguments):
-        builder.function.attributes.alignstack = 64
+        builder.function.attributes.alignstack = 8 * LINE
         builder.function.attributes.add("noinline")
         return context.get_dummy_value()
 

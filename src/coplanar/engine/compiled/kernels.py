@@ -19,10 +19,10 @@ from coplanar.engine.compiled.digest import digest_of
 from coplanar.engine.compiled.door import row_of
 from coplanar.engine.compiled.doubt import shows_every_nan
 from coplanar.engine.compiled.elementary import FLAGS, inline
+from coplanar.engine.compiled.lanes import LANES
 from coplanar.engine.compiled.primitives import FAST, SAFE, SINGLE
 from coplanar.engine.compiled.single import in_single
 
-VECTOR = 8  # numbers in the widest vectors
 SPREAD_ROWS = 1 << 18  # rows that are laid out at a time where an array does not lie as the loop reads it
 FEW = 8  # rows; fewer cannot be shared evenly as whole rows
 CACHES = 1 << 24  # [bytes] of results that still pay to keep in the caches
@@ -171,9 +171,7 @@ class Kernel(Loops):
         paces = tuple(int(array.size > 1) for array in inputs)
         strides = tuple(steps if array.size > steps else 0 for array in inputs)
         ins = tuple(
-            layout.read_only(
-                a if stride else (np.tile(a, group) if group > 1 else a) if pace else layout.spread(a, walks.TILE)
-            )
+            layout.read_only(a if stride else _repeated(a, group) if pace else layout.spread(a, walks.TILE))
             for a, stride, pace in zip(inputs, strides, paces, strict=True)
         )
         constants = (("KEEP", outputs[0].size > rows),)
@@ -231,7 +229,7 @@ def _repeated(row, times):
 def _group(steps):
     """How many whole rows of steps make a tile: a count of steps that fills vectors, if one does."""
     most = max(1, walks.TILE // max(1, steps))
-    even = VECTOR // math.gcd(steps, VECTOR)
+    even = LANES // math.gcd(steps, LANES)
     return most - most % even if most >= even else most
 
 
