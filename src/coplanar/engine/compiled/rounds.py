@@ -1,10 +1,10 @@
 """The loops of a search along an integral: a block of rows advances together, and rows that have settled leave.
 
-``begin``, ``span``, ``rates``, ``improve``, ``finish``, their safe forms and the constants GIVEN (numbers of an input),
-ROW (of a row), WITH (and whether it goes on), STATE, SPAN (what a span has), ARGS (of them parameters), SUMS and OUT
-(of an answer) are names that
-``coplanar.engine.compiled.search`` supplies; the bodies are templates and never run as they stand. A row shows a NaN
-where a fast primitive does not answer; it is searched for again, safely, from its beginning.
+``begin``, ``span``, ``rates``, ``improve``, ``finish``, their safe forms and the constants GIVEN (how many inputs), ROW
+(numbers of a row), WITH (and whether it goes on), STATE, SPAN (what a span has), ARGS (of them parameters), SUMS and
+OUT (of an answer) are names that ``coplanar.engine.compiled.search`` supplies; the bodies are templates and never run
+as they stand. A row shows a NaN where a fast primitive does not answer; it is searched for again, safely, from its
+beginning.
 
 The columns of the table are the row (ROW), its span (how many panels; middle and half of the present one; the
 parameters), the sums of the present panel (SUMS), the integrals (SUMS), and whether it goes on.
